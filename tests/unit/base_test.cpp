@@ -1,0 +1,90 @@
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+#include <vo/base/rng.hpp>
+#include <vo/base/trajectory.hpp>
+
+namespace {
+
+using testing::StrEq;
+
+TEST(Error, ComposesOneLine) {
+  EXPECT_THAT(vo::Error("walk.mp4", "is empty").what(), StrEq("walk.mp4: is empty"));
+  EXPECT_THAT(vo::Error("a.csv: row 3", "frame 'x'\nis no number", "an integer").what(),
+              StrEq("a.csv: row 3: frame 'x' is no number; expected an integer"));
+}
+
+TEST(ParallelFor, RunsEveryIndexOnceForAnyThreadCount) {
+  for (const int threads : {1, 2, 5}) {
+    vo::set_thread_count(threads);
+    std::vector<int> calls(1000, 0);
+    vo::parallel_for(calls.size(), [&](std::size_t i) { ++calls[i]; });
+    EXPECT_THAT(calls, testing::Each(1));
+  }
+  vo::set_thread_count(0);
+  vo::parallel_for(0, [](std::size_t) { FAIL(); });
+}
+
+TEST(ParallelFor, RethrowsAndKeepsNestedCallsWorking) {
+  EXPECT_THROW(vo::parallel_for(10,
+                                [](std::size_t i) {
+                                  if (i == 4) throw std::runtime_error("four");
+                                }),
+               std::runtime_error);
+  std::vector<std::vector<int>> grid(8, std::vector<int>(8, 0));
+  vo::parallel_for(8, [&](std::size_t i) { vo::parallel_for(8, [&](std::size_t j) { ++grid[i][j]; }); });
+  for (const auto& row : grid) EXPECT_THAT(row, testing::Each(1));
+  EXPECT_THROW(vo::set_thread_count(-1), std::invalid_argument);
+}
+
+TEST(Rng, MatchesThePublishedSequence) {
+  // First outputs of the reference SplitMix64 for seed 1234567.
+  vo::Rng rng(1234567);
+  EXPECT_EQ(rng.bits(), 6457827717110365317U);
+  EXPECT_EQ(rng.bits(), 3203168211198807973U);
+  EXPECT_EQ(rng.bits(), 9817491932198370423U);
+}
+
+TEST(Rng, HasTheMomentsOfItsDistributions) {
+  vo::Rng rng(7);
+  constexpr int kCount = 100000;
+  double sum = 0, square = 0, uniform = 0;
+  std::vector<int> histogram(5, 0);
+  for (int i = 0; i < kCount; ++i) {
+    const double x = rng.normal();
+    sum += x;
+    square += x * x;
+    uniform += rng.uniform(2, 4);
+    ++histogram[rng.index(5)];
+  }
+  // Five standard errors of each estimate.
+  EXPECT_NEAR(sum / kCount, 0.0, 5 / std::sqrt(kCount));
+  EXPECT_NEAR(square / kCount, 1.0, 5 * std::sqrt(2.0 / kCount));
+  EXPECT_NEAR(uniform / kCount, 3.0, 5 * std::sqrt(4.0 / 12 / kCount));
+  for (const int n : histogram) EXPECT_NEAR(n, kCount / 5, 5 * std::sqrt(kCount * 0.2 * 0.8));
+  EXPECT_THROW(rng.index(0), std::invalid_argument);
+  EXPECT_THROW(rng.uniform(1, 0), std::invalid_argument);
+}
+
+TEST(Trajectory, InterpolatesAlongTheShorterArc) {
+  const double degree = std::numbers::pi / 180;
+  const vo::Trajectory walk{{0, {0, 0, 170 * degree}}, {2, {4, 2, -170 * degree}}};
+  const auto middle = vo::pose_at(walk, 1, 0);
+  ASSERT_TRUE(middle);
+  EXPECT_DOUBLE_EQ(middle->x_m, 2);
+  EXPECT_DOUBLE_EQ(middle->y_m, 1);
+  EXPECT_NEAR(std::abs(middle->heading_rad), std::numbers::pi, 1e-12);
+  EXPECT_FALSE(vo::pose_at(walk, 2.2, 0.1));
+  EXPECT_DOUBLE_EQ(vo::pose_at(walk, 2.05, 0.1)->x_m, 4);
+  EXPECT_DOUBLE_EQ(vo::pose_at(walk, -0.05, 0.1)->x_m, 0);
+  EXPECT_FALSE(vo::pose_at({}, 0, 1));
+}
+
+}  // namespace
