@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include <vo/io/trajectory_io.hpp>
+
+namespace place {
+
+/// Landmarks seen in both walks: frame numbers, strictly increasing in `query_frame`.
+struct LandmarkPairs {
+  std::vector<double> query_frame;
+  std::vector<double> reference_frame;
+};
+
+/// Reads `pairs.csv` (columns query_frame,reference_frame). Throws `vo::Error` naming file and line for
+/// missing columns, cells that are no numbers >= 0, fewer than two rows, or query frames that do not
+/// increase.
+LandmarkPairs read_pairs(const std::filesystem::path& path);
+
+/// The true reference frame of a query frame: interpolated between the landmarks on either side (SSS 4.2),
+/// none outside.
+std::optional<double> true_reference_frame(const LandmarkPairs& pairs, double query_frame);
+
+/// What says where the query truly is. Either `pairs`, or both walks' travelled distances;
+/// `reference_distance_m` may stand beside `pairs` to turn frames into metres.
+struct GroundTruth {
+  std::optional<LandmarkPairs> pairs;
+  std::vector<double> query_distance_m;      ///< by query frame; empty with `pairs`
+  std::vector<double> reference_distance_m;  ///< by reference frame
+};
+
+/// The unit a tolerance and errors are in.
+enum class ErrorUnit { kFrames, kMetres };
+
+/// How far a match is from the truth.
+struct PlaceError {
+  bool has_truth = false;       ///< the query has a true place on the reference (within `tolerance` of it)
+  std::optional<double> error;  ///< distance of the match from it; none without truth or match
+};
+
+/// Compares one match with the truth. With distances, a query has a true place if the reference comes within
+/// `tolerance` of its distance; the error in frames is to the nearest reference frame at that distance (a
+/// walker who stands still is there for many). Throws `vo::Error` if a frame is outside the truth,
+/// `std::invalid_argument` if the truth given cannot tell errors in `unit`. O(log frames).
+PlaceError place_error(const GroundTruth& truth, std::int64_t query_frame,
+                       std::optional<std::int64_t> reference_frame, ErrorUnit unit, double tolerance);
+
+}  // namespace place

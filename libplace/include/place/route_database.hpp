@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vo/base/pose2.hpp>
+#include <vo/image/image_stack.hpp>
+#include <vo/image/patch_normalisation.hpp>
+#include <vo/image/thumbnail.hpp>
+#include <vo/motion/motion_model.hpp>
+
+namespace place {
+
+/// Where the displacement that a walk is resampled by comes from.
+enum class MotionSource {
+  kNone,  ///< nowhere: every k-th frame (the vanilla of SSS)
+  kSad,   ///< alignment error, through the learned motion model (SSS 3.2)
+};
+
+/// How walks on a route become keyframes; the same for all of them, so that their keyframes are comparable.
+struct Sampling {
+  MotionSource motion = MotionSource::kSad;
+  int every = 1;  ///< frames between keyframes, with `kNone`
+  double n = 3;   ///< SSS Eq. 4's n, with motion
+  double unit =
+      0;  ///< SSS Eq. 4's u, in the displacement's unit, learned from the first traverse; with motion
+};
+
+/// A place on a traverse.
+struct Keyframe {
+  std::int64_t frame = 0;   ///< index in the source video
+  double time_s = 0;        ///< since its first frame
+  double displacement = 0;  ///< travelled since the first frame, in the displacement's unit; 0 without motion
+  std::optional<double> distance_m;        ///< travelled along the route, where surveyed
+  std::optional<vo::Pose2> pose;           ///< where surveyed
+  std::vector<std::uint8_t> preview_jpeg;  ///< a small picture for people; empty if none was kept
+};
+
+/// One walk along a route.
+struct Traverse {
+  std::string name;         ///< unique in its route
+  std::string source;       ///< what it was built from, without folders
+  std::int64_t frames = 0;  ///< of the source
+  double duration_s = 0;    ///< from first to last frame
+  int frame_width_px = 0;
+  int frame_height_px = 0;
+  std::string pose_source;  ///< file the poses came from, without folders; empty if none
+  vo::MotionModel motion_model;
+  std::vector<Keyframe> keyframes;
+  vo::ImageStack thumbnails;  ///< one for each keyframe
+  std::map<std::string, std::string>
+      settings;  ///< every setting that shaped it, by its name on the command line
+};
+
+/// A reference route: any number of traverses of it, by day, by night.
+struct Route {
+  vo::ThumbnailOptions thumbnail;
+  vo::PatchNormalisationOptions patch;
+  Sampling sampling;
+  std::vector<Traverse> traverses;
+  std::string software_version;  ///< of the program that wrote it
+};
+
+/// The layout of the file that this version reads and writes.
+inline constexpr int kRouteSchemaVersion = 1;
+
+/// What to leave in the file.
+struct RouteReadOptions {
+  bool previews = true;  ///< read the pictures too
+};
+
+/// Reads a route database: one SQLite file, opened read-only. Thumbnails lie in chunks of 256, each with a
+/// checksum. Throws `vo::Error` naming the file if there is none, it is no route database, was written by a
+/// newer version, or is damaged (a broken page, a missing row, a thumbnail chunk that does not fit its
+/// checksum). O(file).
+Route read_route(const std::filesystem::path& path, const RouteReadOptions& options = {});
+
+/// Writes a route, over what is at `path`; the file is the old one or the new one at any moment. Equal routes
+/// give equal bytes. Throws `vo::Error` if it cannot be written, `std::invalid_argument` if a traverse's
+/// thumbnails do not fit its keyframes or the route's thumbnail size, or two traverses share a name.
+void write_route(const std::filesystem::path& path, const Route& route);
+
+/// "none", "sad".
+std::string_view name_of(MotionSource motion);
+
+}  // namespace place

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace place::sqlite {
+
+/// A prepared statement: bind values in order, step, read columns in order. Failures throw `vo::Error` naming
+/// the file.
+class Statement {
+ public:
+  Statement(sqlite3* database, std::string path, std::string_view sql);
+
+  Statement& bind(std::int64_t value);
+  Statement& bind(double value);
+  Statement& bind(const std::optional<double>& value);
+  Statement& bind(std::string_view value);
+  Statement& bind(std::span<const std::uint8_t> value);
+
+  /// True if there is a row to read.
+  bool step();
+  /// Runs a statement without rows and makes it ready for the next values.
+  void execute();
+
+  std::int64_t integer();
+  double real();
+  std::optional<double> optional_real();
+  std::string text();
+  /// Valid until the next step.
+  std::span<const std::uint8_t> blob();
+
+ private:
+  void check(int code);
+
+  struct Finalise {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  sqlite3* database_;
+  std::string path_;
+  std::unique_ptr<sqlite3_stmt, Finalise> statement_;
+  int next_parameter_ = 1;
+  int next_column_ = 0;
+};
+
+/// An open SQLite file.
+class Database {
+ public:
+  enum class Mode { kReadOnly, kCreate };
+  Database(const std::filesystem::path& file, Mode mode, std::string shown_path);
+
+  [[nodiscard]] Statement prepare(std::string_view sql) const;
+  /// Runs statements without parameters or rows.
+  void run(const std::string& sql) const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::string path_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+}  // namespace place::sqlite

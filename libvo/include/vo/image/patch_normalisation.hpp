@@ -1,0 +1,42 @@
+#pragma once
+
+#include "vo/image/image_stack.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace vo {
+
+/// What the mean and the deviation of a pixel are taken over.
+enum class PatchShape {
+  kGrid,    ///< the cell of a fixed grid the pixel lies in (OpenSeqSLAM)
+  kWindow,  ///< the window centred at the pixel, cut at the border (SSS Eq. 2: "the patch centered at k")
+};
+
+/// Settings of `patch_normalise`.
+struct PatchNormalisationOptions {
+  int patch_px = 8;  ///< side of a cell; a window is the next odd number wide (OpenSeqSLAM: 8)
+  PatchShape shape = PatchShape::kGrid;  ///< see PatchShape
+  double min_deviation = 1;  ///< grey levels; a flatter patch is divided by this, so noise is not blown up
+};
+
+/// Bytes stand for standard deviations from the patch mean: 128 is the mean (and any pixel of a patch without
+/// texture), one deviation is 16 steps. No pixel of an 8x8 patch can be further than sqrt(63) = 7.94
+/// deviations from its mean, which just fits; beyond, values are clamped.
+inline constexpr int kNeutralByte = 128;
+inline constexpr double kStepsPerDeviation = 16;
+
+/// Patch normalisation, SSS Eq. 2: I' = (I - mean_p) / max(sd_p, min_deviation), with the population
+/// deviation.
+///
+/// `image`: width * height grey bytes, row-major. `out`: as many values, in deviations; a patch without
+/// texture is all 0. Throws `std::invalid_argument` if sizes disagree, patch_px < 2, or (kGrid) a side is no
+/// multiple of patch_px. O(pixels) for either shape.
+void patch_normalise(std::span<const std::uint8_t> image, int width, int height,
+                     const PatchNormalisationOptions& options, std::span<float> out);
+
+/// The same for every image of a stack, rounded to bytes (see kStepsPerDeviation). Runs in parallel over the
+/// images.
+ImageStack patch_normalise(const ImageStack& images, const PatchNormalisationOptions& options);
+
+}  // namespace vo

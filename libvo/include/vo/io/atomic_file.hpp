@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace vo {
+
+/// A file that appears whole or not at all: it is written under a temporary name beside its own, and `commit`
+/// flushes it to the disk and renames it. Without `commit` the destructor removes the temporary; what was at
+/// `path` before stays.
+class AtomicFile {
+ public:
+  /// Does not open anything yet. The temporary's name holds the process id, so two writers do not mix.
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Where to write.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
+  /// Flushes and renames. Throws `vo::Error` naming the path and the system's reason.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  bool committed_ = false;
+};
+
+/// Writes `content` to `path`, whole or not at all, over what is there. Throws `vo::Error` naming the path
+/// and the system's reason (no such folder, read-only, disk full).
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace vo
