@@ -28,6 +28,7 @@ CREATE TABLE route(
   software_version TEXT NOT NULL,
   thumbnail_width INTEGER NOT NULL, thumbnail_height INTEGER NOT NULL,
   patch_px INTEGER NOT NULL, patch_shape TEXT NOT NULL, patch_min_deviation REAL NOT NULL,
+  patch_min_contrast REAL NOT NULL,
   motion TEXT NOT NULL, every INTEGER NOT NULL, sampling_n REAL NOT NULL, sampling_unit REAL NOT NULL,
   traverses INTEGER NOT NULL);
 CREATE TABLE traverse(
@@ -238,7 +239,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
 
   Statement row = database.prepare(
       "SELECT software_version, thumbnail_width, thumbnail_height, patch_px, patch_shape, "
-      "patch_min_deviation, motion, "
+      "patch_min_deviation, patch_min_contrast, motion, "
       "every, sampling_n, sampling_unit, traverses FROM route");
   if (!row.step()) damaged(shown, "the route's row is missing");
   Route route;
@@ -249,6 +250,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   route.patch.shape =
       row.text() == name_of(vo::PatchShape::kWindow) ? vo::PatchShape::kWindow : vo::PatchShape::kGrid;
   route.patch.min_deviation = row.real();
+  route.patch.min_contrast = row.real();
   route.sampling.motion =
       row.text() == name_of(MotionSource::kNone) ? MotionSource::kNone : MotionSource::kSad;
   route.sampling.every = static_cast<int>(row.integer());
@@ -277,13 +279,14 @@ void write_route(const std::filesystem::path& path, const Route& route) {
                              kRouteSchemaVersion));
     database.run("BEGIN");
     database.run(kSchema);
-    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?,?,?,?,?,?)")
+    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
         .bind(std::string_view(kVersion))
         .bind(std::int64_t{route.thumbnail.width})
         .bind(std::int64_t{route.thumbnail.height})
         .bind(std::int64_t{route.patch.patch_px})
         .bind(name_of(route.patch.shape))
         .bind(route.patch.min_deviation)
+        .bind(route.patch.min_contrast)
         .bind(name_of(route.sampling.motion))
         .bind(std::int64_t{route.sampling.every})
         .bind(route.sampling.n)

@@ -59,6 +59,7 @@ void check(std::size_t pixels, int width, int height, const PatchNormalisationOp
   if (options.patch_px < 2) throw std::invalid_argument("patch_normalise: patch_px must be >= 2");
   if (!(options.min_deviation > 0))
     throw std::invalid_argument("patch_normalise: min_deviation must be positive");
+  if (!(options.min_contrast >= 0)) throw std::invalid_argument("patch_normalise: min_contrast must be >= 0");
   if (options.shape == PatchShape::kGrid &&
       (width % options.patch_px != 0 || height % options.patch_px != 0)) {
     throw std::invalid_argument("patch_normalise: width and height must be multiples of patch_px");
@@ -73,9 +74,11 @@ void patch_normalise(std::span<const std::uint8_t> image, int width, int height,
   if (out.size() != image.size())
     throw std::invalid_argument("patch_normalise: out must be as large as the image");
   PatchSums sums(image, width, height);
+  const double floor =
+      std::max(options.min_deviation, options.min_contrast * sums.over(0, 0, width, height).deviation);
   const auto normalise = [&](int x, int y, const PatchSums::Statistics& patch) {
     const std::size_t k = static_cast<std::size_t>(y) * width + x;
-    out[k] = static_cast<float>((image[k] - patch.mean) / std::max(patch.deviation, options.min_deviation));
+    out[k] = static_cast<float>((image[k] - patch.mean) / std::max(patch.deviation, floor));
   };
 
   const int side = options.patch_px;

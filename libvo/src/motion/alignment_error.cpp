@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -94,6 +95,18 @@ std::vector<double> mean_error_by_separation(const AlignmentErrors& errors,
     means.push_back(count > 0 ? sum / static_cast<double>(count) : (means.empty() ? 0 : means.back()));
   }
   return means;
+}
+
+bool standing_still(const ImageStack& normalised) {
+  const std::size_t half = normalised.size() / 2;
+  if (half == 0) return true;
+  const double unrelated =
+      2 / std::sqrt(std::numbers::pi) * kStepsPerDeviation * static_cast<double>(normalised.image_size());
+  std::vector<double> errors;
+  for (std::size_t i = 0; i + half < normalised.size(); ++i) {
+    errors.push_back(absolute_difference(normalised[i], normalised[i + half]));
+  }
+  return median(std::move(errors)) < unrelated / 3;
 }
 
 }  // namespace vo

@@ -42,4 +42,9 @@ std::vector<bool> high_error_windows(const AlignmentErrors& errors, std::span<co
 std::vector<double> mean_error_by_separation(const AlignmentErrors& errors,
                                              const std::vector<bool>& excluded = {});
 
+/// True if the walk never leaves its first view: frames half the walk apart are as alike as neighbours would
+/// be, or there is nothing to be seen at all. The median error of such pairs is then below a third of 2 /
+/// sqrt(pi) = 1.13, that of two unrelated pictures (independent normal pixels). O(frames * pixels).
+bool standing_still(const ImageStack& normalised);
+
 }  // namespace vo

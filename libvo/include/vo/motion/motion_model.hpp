@@ -8,11 +8,49 @@
 namespace vo {
 
 /// The learned relation of alignment error and frame separation (SSS 3.2, Fig. 3): knots strictly increasing
-/// in both, joined by a second-order spline. Fewer than two knots: nothing was learned, and every motion is
-/// 0.
+/// in both, from (0, 0), joined by a second-order spline. With a single knot nothing was learned.
 struct MotionModel {
   std::vector<double> error;       ///< standard deviations of a patch
-  std::vector<double> separation;  ///< frames at the mean speed of the walk it was learned on
+  std::vector<double> separation;  ///< frames of the walk it was learned on, at its mean speed
+
+  [[nodiscard]] bool learned() const { return error.size() >= 2; }
 };
+
+/// Settings of `estimate_motion`.
+struct MotionModelOptions {
+  /// Frame separations whose estimates are compared for each frame, 1 .. this. 1 is SSS Eq. 3 to the letter.
+  /// Image bounce and sway add to the error at small separations as motion does, but do not grow with the
+  /// separation.
+  int separations = 10;
+  /// Times the mean speed of the walk: what is faster is a turn or a jolt, not walking. Infinity leaves it
+  /// out.
+  double max_speed = 2;
+  /// Seconds of the walk, up to the frame, that its model is learned from (`local temporal window`, SSS 3); 0
+  /// learns one model from the whole walk. A local model equalises speeds across windows, so it must span
+  /// slow and fast parts.
+  double local_window_s = 0;
+};
+
+/// Learns the model from the mean error at each separation (SSS 3.2), on the part from separation 0 that
+/// strictly increases; what lies beyond has saturated and tells nothing.
+MotionModel learn_motion_model(std::span<const double> mean_error_by_separation);
+
+/// The separation that belongs to each error: the spline, clamped to the knots' range at both ends (SSS Eq.
+/// 3). All 0 for a model without knots beyond the first. Non-decreasing in the error: where the quadratic
+/// would overshoot, straight pieces take its place.
+std::vector<double> separation_of(const MotionModel& model, std::span<const float> errors);
+
+/// Displacement of each frame since the one before it, in frames of mean speed; 0 for the first (SSS 3.2).
+///
+/// For every separation k, F(e_k) / k is an estimate of the speed over k frames (SSS Eq. 3 has k = 1 only); a
+/// frame's displacement is the least, over k, of the mean estimate of the spans that contain it. Motion adds
+/// to the error at every k alike, bounce does so only at small ones, hence the least. Spans whose error lies
+/// on the clamped part of the model only say "at least" and are left out for k > 1. No frame moves faster
+/// than max_speed. O(frames * separations^2).
+///
+/// `excluded`: frames left out of learning, as from `high_error_windows`, or empty. `time_s`: one per frame;
+/// only used with a local window.
+std::vector<double> estimate_motion(const AlignmentErrors& errors, const std::vector<bool>& excluded,
+                                    std::span<const double> time_s, const MotionModelOptions& options = {});
 
 }  // namespace vo

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include <vo/base/progress.hpp>
+
+namespace retrace {
+
+/// Shows progress on stderr: a bar with rate and time left on a terminal, otherwise a line every ten seconds.
+/// Clears its bar when it goes out of scope. Ctrl-C stops the stage and keeps what it has.
+class ProgressBar {
+ public:
+  ProgressBar();
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// A callback for one stage, to be used while this lives.
+  [[nodiscard]] vo::ProgressCallback callback();
+
+ private:
+  bool show(const vo::Progress& progress);
+
+  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point shown_;
+  bool terminal_;
+  bool drawn_ = false;
+};
+
+}  // namespace retrace

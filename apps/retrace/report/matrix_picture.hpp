@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <place/localiser.hpp>
+
+namespace retrace {
+
+/// A PNG of an enhanced cost matrix, dark where alike, query keyframes from left to right and reference
+/// keyframes from bottom to top, with the matches against `traverse` over it: accepted ones filled, refused
+/// ones small and hollow. Large matrices are shrunk, keeping the least cost of each block; small ones are
+/// enlarged.
+std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
+                                         const std::vector<place::Match>& matches,
+                                         const std::string& traverse);
+
+}  // namespace retrace

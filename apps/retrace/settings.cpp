@@ -1,0 +1,215 @@
+#include "settings.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include <vo/base/error.hpp>
+
+namespace retrace {
+namespace {
+
+constexpr const char* kFrames = "Frames and descriptors";
+constexpr const char* kSampling = "Motion and sampling";
+constexpr const char* kSearch = "Search";
+constexpr const char* kGeneral = "General";
+
+template <typename T>
+CLI::Option* add(CLI::App& app, const char* group, const std::string& name, T& target,
+                 const std::string& description) {
+  return app.add_option(name, target, description)
+      ->capture_default_str()
+      ->group(group)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+template <typename Choice>
+using Choices = std::vector<std::pair<std::string, Choice>>;
+
+/// An option whose value is one of a few names.
+template <typename Choice>
+CLI::Option* add_choice(CLI::App& app, const char* group, const std::string& name, Choice& target,
+                        const Choices<Choice>& choices, const std::string& description) {
+  std::vector<std::string> names;
+  std::string current;
+  for (const auto& [text, value] : choices) {
+    names.push_back(text);
+    if (value == target) current = text;
+  }
+  return app
+      .add_option_function<std::string>(
+          name,
+          [&target, choices](const std::string& text) {
+            target = std::ranges::find(choices, text, &Choices<Choice>::value_type::first)->second;
+          },
+          description)
+      ->default_str(current)
+      ->check(CLI::IsMember(names))
+      ->group(group)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+bool is_toml_literal(const std::string& value) {
+  if (value == "true" || value == "false") return true;
+  double number = 0;
+  return CLI::detail::lexical_cast(value, number);
+}
+
+}  // namespace
+
+void add_frame_options(CLI::App& app, Settings& s) {
+  add(app, kFrames, "--image-rate-hz", s.walk.frames.image_rate_hz,
+      "frames per second of a folder of images, which carries no times")
+      ->check(CLI::PositiveNumber);
+  add(app, kFrames, "--thumbnail-width", s.walk.thumbnail.width, "pixels [SeqSLAM]")
+      ->check(CLI::Range(8, 1024));
+  add(app, kFrames, "--thumbnail-height", s.walk.thumbnail.height, "pixels [SeqSLAM]")
+      ->check(CLI::Range(8, 1024));
+  add(app, kFrames, "--preview-width-px", s.walk.preview_width_px,
+      "pixels, width of the small picture kept of each keyframe; 0 keeps none")
+      ->check(CLI::Range(0, 4096));
+  add(app, kFrames, "--patch-px", s.patch.patch_px,
+      "pixels, side of a normalised patch [SSS Eq. 2, OpenSeqSLAM]")
+      ->check(CLI::Range(2, 1024));
+  add_choice(app, kFrames, "--patch-shape", s.patch.shape,
+             {{"grid", vo::PatchShape::kGrid}, {"window", vo::PatchShape::kWindow}},
+             "patches of a fixed grid, or a window around each pixel");
+  add(app, kFrames, "--patch-min-deviation", s.patch.min_deviation,
+      "grey levels; a flatter patch counts as having this deviation")
+      ->check(CLI::PositiveNumber);
+  add(app, kFrames, "--patch-min-contrast", s.patch.min_contrast,
+      "the same, as a share of the deviation of the whole picture")
+      ->check(CLI::Range(0.0, 10.0));
+}
+
+void add_sampling_options(CLI::App& app, Settings& s) {
+  add_choice(app, kSampling, "--motion", s.sampling.sampling.motion,
+             {{"sad", place::MotionSource::kSad}, {"none", place::MotionSource::kNone}},
+             "what walks are resampled by: alignment error [SSS 3.2], or nothing");
+  add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
+      ->check(CLI::Range(1, 1000000));
+  add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
+      ->check(CLI::Range(0.01, 1000.0));
+  add(app, kSampling, "--separations", s.sampling.motion.model.separations,
+      "frame separations compared for each frame's motion, 1 is SSS Eq. 3 to the letter")
+      ->check(CLI::Range(1, 10));
+  add(app, kSampling, "--max-speed", s.sampling.motion.model.max_speed,
+      "times the walk's mean speed; what seems faster is a turn or a jolt")
+      ->check(CLI::PositiveNumber);
+  add(app, kSampling, "--local-window-s", s.sampling.motion.model.local_window_s,
+      "seconds, learn motion from the last so many only [SSS 3]; 0 for the whole walk")
+      ->check(CLI::NonNegativeNumber);
+  add(app, kSampling, "--high-error-mads", s.sampling.motion.alignment.high_error_mads,
+      "median absolute deviations above which a window is left out of learning [SSS 6]")
+      ->check(CLI::NonNegativeNumber);
+  add(app, kSampling, "--smoothing-s", s.sampling.motion.alignment.smoothing_s,
+      "seconds, window over which the error is smoothed for that [SSS Fig. 10]")
+      ->check(CLI::NonNegativeNumber);
+  add(app, kSampling, "--tie-scale", s.sampling.tie_scale,
+      "true: bring each walk to the keyframe spacing of the route's first traverse");
+}
+
+void add_search_options(CLI::App& app, Settings& s) {
+  add_choice(app, kSearch, "--enhance", s.localiser.enhancement.method,
+             {{"standardise", place::Enhancement::kStandardise},
+              {"local", place::Enhancement::kLocal},
+              {"none", place::Enhancement::kNone}},
+             "contrast enhancement of the cost matrix");
+  add(app, kSearch, "--enhance-window", s.localiser.enhancement.window,
+      "keyframes, with --enhance local [SeqSLAM's R]")
+      ->check(CLI::Range(2, 1000000));
+  add(app, kSearch, "--sequence-length", s.localiser.search.length, "keyframes on a line [SeqSLAM's d_s]")
+      ->check(CLI::Range(1, 100000));
+  add(app, kSearch, "--sequence-length-m", s.localiser.sequence_length_m,
+      "metres on a line, instead of keyframes; needs a route with surveyed distances")
+      ->check(CLI::PositiveNumber);
+  add(app, kSearch, "--search-range-rad", s.localiser.search.search_range_rad,
+      "radians either side of pi/4, slopes searched [SSS 5.1]")
+      ->check(CLI::Range(0.0, 0.785));
+  add(app, kSearch, "--slopes", s.localiser.search.slopes,
+      "slopes across the range, before equal lines are merged")
+      ->check(CLI::Range(1, 10001));
+  add(app, kSearch, "--v-min", s.localiser.search.v_min,
+      "reference keyframes per query keyframe, instead of the range [OpenSeqSLAM]")
+      ->check(CLI::PositiveNumber);
+  add(app, kSearch, "--v-max", s.localiser.search.v_max, "see --v-min")->check(CLI::PositiveNumber);
+  add(app, kSearch, "--min-fraction", s.localiser.search.min_fraction,
+      "share of a line that must lie inside the matrix, at the ends of a walk")
+      ->check(CLI::Range(0.01, 1.0));
+  add(app, kSearch, "--uniqueness-window", s.localiser.search.uniqueness_window,
+      "reference keyframes around a match that do not compete with it [SeqSLAM's Rwindow]")
+      ->check(CLI::Range(0, 1000000));
+  add(app, kSearch, "--accept-score", s.localiser.acceptance_threshold, "least score of an accepted match");
+  add_choice(app, kSearch, "--compat", s.compatibility,
+             {{"none", Compatibility::kNone},
+              {"openseqslam", Compatibility::kOpenSeqSlam},
+              {"openseqslam-mended", Compatibility::kOpenSeqSlamMended}},
+             "run the search of the original OpenSeqSLAM, as it was or with constant patches made neutral");
+}
+
+void add_general_options(CLI::App& app, Settings& s) {
+  add(app, kGeneral, "--threads", s.threads, "threads, 0 for one per core; results do not depend on it")
+      ->check(CLI::Range(0, 1024));
+}
+
+std::vector<SettingEntry> entries(const Settings& settings) {
+  Settings copy = settings;
+  CLI::App app;
+  add_frame_options(app, copy);
+  add_sampling_options(app, copy);
+  add_search_options(app, copy);
+  add_general_options(app, copy);
+  std::vector<SettingEntry> all;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_lnames().empty() || option->get_lnames().front() == "help") continue;
+    std::string value = option->get_default_str();
+    if (!value.empty() && !is_toml_literal(value)) value = fmt::format("\"{}\"", value);
+    all.push_back({option->get_group(), option->get_lnames().front(), value, option->get_description()});
+  }
+  return all;
+}
+
+std::string to_toml(const Settings& settings) {
+  std::string text = "# Settings of retrace, for --config; flags on the command line come first.\n";
+  std::string group;
+  for (const SettingEntry& entry : entries(settings)) {
+    if (entry.group != group) text += fmt::format("\n# ---- {} ----\n", entry.group);
+    group = entry.group;
+    text += fmt::format("\n# {}\n", entry.description);
+    text += entry.value.empty() ? fmt::format("# {} =\n", entry.name)
+                                : fmt::format("{} = {}\n", entry.name, entry.value);
+  }
+  return text;
+}
+
+bool given(const CLI::App& app, const std::string& option) {
+  const CLI::Option* found = app.get_option_no_throw(option);
+  return found != nullptr && found->count() > 0;
+}
+
+void resolve(const CLI::App& app, Settings& settings) {
+  place::SequenceSearchOptions& search = settings.localiser.search;
+  if (settings.compatibility != Compatibility::kNone) {
+    place::openseqslam::Options original;
+    original.patch_px = settings.patch.patch_px;
+    original.enhancement_window = settings.localiser.enhancement.window;
+    original.match_window = search.uniqueness_window;
+    original.v_min = search.v_min.value_or(original.v_min);
+    original.v_max = search.v_max.value_or(original.v_max);
+    original.quirks = place::openseqslam::Quirks::original();
+    if (settings.compatibility == Compatibility::kOpenSeqSlamMended)
+      original.quirks.constant_patch_is_zero = false;
+    if (original.v_min > original.v_max) throw vo::Error("--v-min", "is above --v-max", "v-min <= v-max");
+    settings.localiser.openseqslam = original;
+    // Its score is 1 - best / second best; another scale than ours, so another threshold.
+    if (!given(app, "--accept-score")) settings.localiser.acceptance_threshold = 0.1;
+  } else if (std::string reason; !search.is_valid(&reason)) {
+    throw vo::Error("search settings", reason);
+  }
+  if (settings.sampling.sampling.motion == place::MotionSource::kSad && given(app, "--every")) {
+    throw vo::Error("--every", "has no meaning with --motion sad", "--motion none --every K");
+  }
+}
+
+}  // namespace retrace

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <place/localiser.hpp>
+#include <vo/odometry.hpp>
+
+/// Everything a user can set, declared to CLI11 once: flags, TOML, --help, validation and the saved
+/// configuration all come from these declarations.
+namespace retrace {
+
+/// Which program's search is run.
+enum class Compatibility {
+  kNone,               ///< ours
+  kOpenSeqSlam,        ///< the original, quirks included
+  kOpenSeqSlamMended,  ///< the original, but a constant patch is neutral
+};
+
+struct Settings {
+  vo::WalkOptions walk;
+  vo::PatchNormalisationOptions patch;
+  place::WalkSamplingOptions sampling;
+  place::LocaliserOptions localiser;
+  Compatibility compatibility = Compatibility::kNone;
+  int threads = 0;
+};
+
+/// How frames become thumbnails, and how those are described: what every walk on a route has in common.
+void add_frame_options(CLI::App& app, Settings& settings);
+/// How a walk becomes keyframes.
+void add_sampling_options(CLI::App& app, Settings& settings);
+/// Enhancement, search and acceptance.
+void add_search_options(CLI::App& app, Settings& settings);
+/// What every command has.
+void add_general_options(CLI::App& app, Settings& settings);
+
+/// One setting as text.
+struct SettingEntry {
+  std::string group;
+  std::string name;
+  std::string value;  ///< as in TOML; empty if it has none
+  std::string description;
+};
+
+/// All settings with their values.
+std::vector<SettingEntry> entries(const Settings& settings);
+
+/// The settings as a commented TOML file that --config reads.
+std::string to_toml(const Settings& settings);
+
+/// True if the user gave the option, on the command line or in a file.
+bool given(const CLI::App& app, const std::string& option);
+
+/// Puts the settings that follow from others in place (the original's options from --compat). Throws
+/// `vo::Error` for settings that do not go together.
+void resolve(const CLI::App& app, Settings& settings);
+
+}  // namespace retrace

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include <place/localiser.hpp>
+
+namespace retrace {
+
+/// Poses and distances of a walk's frames from `truth.csv`. Throws `vo::Error` if it has not one row for each
+/// frame.
+place::Survey survey_from_truth(const std::string& path, const vo::Walk& walk);
+
+/// The same from a trajectory in TUM's form, on the clock of the walk (seconds since its first frame). Frames
+/// outside it have no pose; the distance is the length of the path between the frames' positions. Throws
+/// `vo::Error` if no frame has a pose.
+place::Survey survey_from_trajectory(const std::string& path, const vo::Walk& walk);
+
+}  // namespace retrace

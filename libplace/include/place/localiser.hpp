@@ -1,0 +1,90 @@
+#pragma once
+
+#include "place/contrast_enhancement.hpp"
+#include "place/match.hpp"
+#include "place/openseqslam.hpp"
+#include "place/relative_scale.hpp"
+#include "place/route_database.hpp"
+#include "place/sequence_search.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vo/base/progress.hpp>
+#include <vo/odometry.hpp>
+
+/// The whole library on one screen: a walk becomes keyframes, a first one becomes a route, another is found
+/// on it.
+namespace place {
+
+/// Settings of `sample_walk`.
+struct WalkSamplingOptions {
+  vo::VisualMotionOptions motion;  ///< its `patch` is overruled by the route's
+  Sampling sampling;
+  bool tie_scale = true;  ///< bring a walk to the spacing of the route's first traverse (`relative_scale`)
+  RelativeScaleOptions relative_scale;
+};
+
+/// A walk cut down to its keyframes.
+struct SampledWalk {
+  std::vector<std::size_t> frames;  ///< of the walk, strictly increasing
+  std::vector<double>
+      displacement;              ///< of every frame of the walk since the one before; empty without motion
+  vo::ImageStack thumbnails;     ///< of the keyframes
+  vo::MotionModel motion_model;  ///< learned on the walk; nothing in it without motion
+  double scale = 1;              ///< the displacement was multiplied by this to fit the route's
+  double unit = 0;               ///< displacement between keyframes (SSS Eq. 4); 0 without motion
+};
+
+/// Samples a walk (SSS 3.3). With motion, the unit comes from `options.sampling.unit`, or where that is 0
+/// from this walk by Eq. 4. `reference`: the route's first traverse, to tie the scale to; null for the first
+/// walk itself. Throws `vo::Error` naming the walk if it shows no motion to learn from.
+SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
+                        const WalkSamplingOptions& options);
+
+/// What poses and distances a walk's frames have, where they were surveyed.
+struct Survey {
+  std::string source;                             ///< the file's name
+  std::vector<std::optional<vo::Pose2>> pose;     ///< by frame
+  std::vector<std::optional<double>> distance_m;  ///< by frame
+};
+
+/// Makes a traverse of a sampled walk. Throws `std::invalid_argument` if the survey is of another number of
+/// frames.
+Traverse make_traverse(const std::string& name, const vo::Walk& walk, const SampledWalk& sampled,
+                       const std::optional<Survey>& survey);
+
+/// Settings of `localise`.
+struct LocaliserOptions {
+  ContrastEnhancementOptions enhancement;
+  SequenceSearchOptions search;
+  std::optional<double>
+      sequence_length_m;  ///< metres on a line, instead of `search.length`; needs surveyed distances
+  double acceptance_threshold =
+      0.7;  ///< least score of an accepted match, in deviations of the enhanced cost
+  std::optional<openseqslam::Options> openseqslam;  ///< run the original's search instead of ours
+};
+
+/// The matrices of a search against one traverse, for people to look at.
+struct SearchMatrices {
+  CostMatrix cost;
+  CostMatrix enhanced;
+};
+
+/// Where a walk was found on a route.
+struct Localisation {
+  std::vector<Match> matches;            ///< one for each query keyframe, in order
+  std::vector<SearchMatrices> matrices;  ///< one for each traverse
+  int sequence_length = 0;               ///< keyframes, as used
+  int lines = 0;  ///< distinct lines searched through each pair; 0 in OpenSeqSLAM's search
+};
+
+/// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> sequence search,
+/// against each traverse by itself; of a route's traverses the one with the surest match counts. Throws
+/// `vo::Error` naming the traverse if it is shorter than the sequence, or has no distances where a length in
+/// metres asks for them.
+Localisation localise(const Route& route, const vo::Walk& walk, const SampledWalk& sampled,
+                      const LocaliserOptions& options);
+
+}  // namespace place

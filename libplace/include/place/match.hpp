@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <vo/base/pose2.hpp>
+
+namespace place {
+
+/// A place on a reference route.
+struct Place {
+  std::string traverse;              ///< name of the traverse matched against
+  std::size_t keyframe = 0;          ///< index in it
+  std::int64_t frame = 0;            ///< of the traverse's source video
+  double time_s = 0;                 ///< since its first frame
+  std::optional<double> distance_m;  ///< along the route, where surveyed
+  std::optional<vo::Pose2> pose;     ///< where surveyed
+};
+
+/// Where a query keyframe was found.
+struct Match {
+  std::int64_t query_frame = 0;  ///< of the query's source video
+  double query_time_s = 0;       ///< since its first frame
+  std::optional<Place> place;    ///< none: nothing to match with (see `SequenceMatch::reference`)
+  double score = 0;              ///< higher is surer; 0 without a place
+  bool accepted = false;         ///< score >= the acceptance threshold
+  bool partial = false;          ///< found on a part of its line only, at an end of either walk
+};
+
+}  // namespace place

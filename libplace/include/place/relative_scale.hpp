@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vo/image/image_stack.hpp>
+
+namespace place {
+
+/// Settings of `relative_scale`.
+struct RelativeScaleOptions {
+  double largest =
+      4;  ///< scales 1 / largest .. largest are tried; a walk is seldom four times as fast as another
+  int steps = 25;   ///< scales tried, evenly spaced in their logarithm
+  int length = 10;  ///< keyframes on a line, fewer if the query is shorter
+};
+
+/// How far one query keyframe step reaches, in reference keyframe steps, found by matching alone.
+///
+/// Alignment error tells a walk's speed only against the walk's own mean (SSS 3.2 learns in frames), so two
+/// walks at different mean speeds, frame rates or lights are sampled at different distances, and their path
+/// through the cost matrix is straight but not at 45 degrees. Lines of a single slope are searched through
+/// the whole standardised matrix; the right slope is the one whose best lines are cheapest on average.
+/// Between the slopes tried, a parabola in log slope.
+///
+/// `query`, `reference`: descriptors of keyframes, of one size. Returns 1 if either has fewer than 2
+/// keyframes. O(queries * references * (pixels + steps * length)), in parallel over queries.
+double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
+                      const RelativeScaleOptions& options = {});
+
+}  // namespace place

@@ -1,0 +1,194 @@
+#include "place/localiser.hpp"
+
+#include "place/cost_matrix.hpp"
+#include "place/resampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <vo/base/error.hpp>
+
+namespace place {
+namespace {
+
+/// Mean metres between neighbouring keyframes of a traverse.
+double keyframe_spacing_m(const Traverse& traverse) {
+  const Keyframe& first = traverse.keyframes.front();
+  const Keyframe& last = traverse.keyframes.back();
+  if (!first.distance_m || !last.distance_m || !(*last.distance_m > *first.distance_m)) {
+    throw vo::Error(fmt::format("traverse '{}'", traverse.name), "has no surveyed distances",
+                    "a route built with --truth or --trajectory for a sequence length in metres");
+  }
+  return (*last.distance_m - *first.distance_m) / static_cast<double>(traverse.keyframes.size() - 1);
+}
+
+int sequence_length(const Traverse& traverse, const LocaliserOptions& options) {
+  if (!options.sequence_length_m) return options.search.length;
+  return std::max(1,
+                  static_cast<int>(std::lround(*options.sequence_length_m / keyframe_spacing_m(traverse))));
+}
+
+void check_long_enough(const Traverse& traverse, int length) {
+  if (traverse.keyframes.size() >= static_cast<std::size_t>(length)) return;
+  throw vo::Error(fmt::format("traverse '{}'", traverse.name),
+                  fmt::format("has {} keyframes, the sequence {}", traverse.keyframes.size(), length),
+                  "a reference at least as long as the sequence; walk further or lower --sequence-length");
+}
+
+/// A match before it is known which traverse counts.
+struct Candidate {
+  std::optional<std::size_t> keyframe;
+  double score = 0;
+  bool partial = false;
+};
+
+std::vector<Candidate> search_our_way(const vo::ImageStack& query, const vo::ImageStack& reference,
+                                      const Route& route, const LocaliserOptions& options, int length,
+                                      SearchMatrices& matrices) {
+  matrices.cost = cost_matrix(vo::patch_normalise(query, route.patch),
+                              vo::patch_normalise(reference, route.patch));  // SSS 3.4
+  matrices.enhanced = matrices.cost;
+  enhance_contrast(matrices.enhanced, options.enhancement);
+  SequenceSearchOptions search = options.search;
+  search.length = length;
+  std::vector<Candidate> candidates;
+  for (const SequenceMatch& found : search_sequences(matrices.enhanced, search)) {
+    candidates.push_back({found.reference, found.score, found.reference && found.terms < length});
+  }
+  return candidates;
+}
+
+std::vector<Candidate> search_the_original_way(const vo::ImageStack& query, const vo::ImageStack& reference,
+                                               const openseqslam::Options& options,
+                                               SearchMatrices& matrices) {
+  matrices.cost = openseqslam::difference_matrix(openseqslam::patch_normalise(query, options),
+                                                 openseqslam::patch_normalise(reference, options), options);
+  matrices.enhanced = openseqslam::enhance(matrices.cost, options);
+  std::vector<Candidate> candidates;
+  for (const openseqslam::Match& found : openseqslam::find_matches(matrices.enhanced, options)) {
+    // The original's score is smaller for surer matches and lies in [0, 1].
+    candidates.push_back(
+        {found.reference, found.reference ? 1.0 - static_cast<double>(found.score) : 0, false});
+  }
+  return candidates;
+}
+
+Place place_of(const Traverse& traverse, std::size_t keyframe) {
+  const Keyframe& k = traverse.keyframes[keyframe];
+  return {.traverse = traverse.name,
+          .keyframe = keyframe,
+          .frame = k.frame,
+          .time_s = k.time_s,
+          .distance_m = k.distance_m,
+          .pose = k.pose};
+}
+
+}  // namespace
+
+SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
+                        const WalkSamplingOptions& options) {
+  SampledWalk sampled;
+  const Sampling& sampling = options.sampling;
+  if (sampling.motion == MotionSource::kNone) {
+    sampled.frames = every_kth(walk.frames(), static_cast<std::size_t>(sampling.every));
+    sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+    return sampled;
+  }
+  vo::VisualMotionOptions motion_options = options.motion;
+  motion_options.patch = route.patch;
+  vo::VisualMotion motion = vo::visual_motion(walk, motion_options);
+  sampled.displacement = std::move(motion.displacement);
+  sampled.motion_model = std::move(motion.model);
+  sampled.unit =
+      sampling.unit > 0 ? sampling.unit : sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
+  sampled.frames = resample(sampled.displacement, sampled.unit);
+  sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  if (reference == nullptr || !options.tie_scale) return sampled;
+
+  sampled.scale =
+      relative_scale(vo::patch_normalise(sampled.thumbnails, route.patch),
+                     vo::patch_normalise(reference->thumbnails, route.patch), options.relative_scale);
+  for (double& step : sampled.displacement) step *= sampled.scale;
+  sampled.frames = resample(sampled.displacement, sampled.unit);
+  sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  return sampled;
+}
+
+Traverse make_traverse(const std::string& name, const vo::Walk& walk, const SampledWalk& sampled,
+                       const std::optional<Survey>& survey) {
+  if (survey && (survey->pose.size() != walk.frames() || survey->distance_m.size() != walk.frames())) {
+    throw std::invalid_argument("make_traverse: the survey is of another number of frames than the walk");
+  }
+  Traverse traverse;
+  traverse.name = name;
+  traverse.source = std::filesystem::path(walk.source).filename().string();
+  traverse.frames = static_cast<std::int64_t>(walk.frames());
+  traverse.duration_s = walk.time_s.back();
+  traverse.frame_width_px = walk.frame_width_px;
+  traverse.frame_height_px = walk.frame_height_px;
+  if (survey) traverse.pose_source = survey->source;
+  traverse.motion_model = sampled.motion_model;
+  traverse.thumbnails = sampled.thumbnails;
+  double travelled = 0;
+  std::size_t next = 0;
+  for (const std::size_t frame : sampled.frames) {
+    for (; next <= frame && next < sampled.displacement.size(); ++next)
+      travelled += sampled.displacement[next];
+    Keyframe keyframe;
+    keyframe.frame = static_cast<std::int64_t>(frame);
+    keyframe.time_s = walk.time_s[frame];
+    keyframe.displacement = travelled;
+    if (survey) keyframe.pose = survey->pose[frame];
+    if (survey) keyframe.distance_m = survey->distance_m[frame];
+    if (!walk.previews.empty()) keyframe.preview_jpeg = walk.previews[frame];
+    traverse.keyframes.push_back(std::move(keyframe));
+  }
+  return traverse;
+}
+
+Localisation localise(const Route& route, const vo::Walk& walk, const SampledWalk& sampled,
+                      const LocaliserOptions& options) {
+  if (route.traverses.empty()) throw std::invalid_argument("localise: the route has no traverse");
+  Localisation result;
+  for (const std::size_t frame : sampled.frames) {
+    Match match;
+    match.query_frame = static_cast<std::int64_t>(frame);
+    match.query_time_s = walk.time_s[frame];
+    result.matches.push_back(std::move(match));
+  }
+  for (const Traverse& traverse : route.traverses) {
+    const int length = sequence_length(traverse, options);
+    check_long_enough(traverse, length);
+    SearchMatrices& matrices = result.matrices.emplace_back();
+    std::vector<Candidate> candidates;
+    if (options.openseqslam) {
+      openseqslam::Options original = *options.openseqslam;
+      original.sequence_length = length;
+      candidates = search_the_original_way(sampled.thumbnails, traverse.thumbnails, original, matrices);
+    } else {
+      candidates = search_our_way(sampled.thumbnails, traverse.thumbnails, route, options, length, matrices);
+    }
+    for (std::size_t q = 0; q < candidates.size(); ++q) {
+      Match& match = result.matches[q];
+      if (!candidates[q].keyframe || (match.place && match.score >= candidates[q].score)) continue;
+      match.place = place_of(traverse, *candidates[q].keyframe);
+      match.score = candidates[q].score;
+      match.partial = candidates[q].partial;
+      match.accepted = match.score >= options.acceptance_threshold;
+    }
+    result.sequence_length = length;
+  }
+  if (!options.openseqslam) {
+    SequenceSearchOptions search = options.search;
+    search.length = result.sequence_length;
+    result.lines = static_cast<int>(search_lines(search).size());
+  }
+  return result;
+}
+
+}  // namespace place

@@ -1,0 +1,51 @@
+#include "place/relative_scale.hpp"
+
+#include "place/contrast_enhancement.hpp"
+#include "place/cost_matrix.hpp"
+#include "place/sequence_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace place {
+namespace {
+
+/// Mean cost of every query's best line of one slope.
+double mean_best_cost(const CostMatrix& enhanced, double slope, int length) {
+  const SequenceSearchOptions options{.length = length, .v_min = slope, .v_max = slope};
+  double sum = 0;
+  for (const SequenceMatch& match : search_sequences(enhanced, options)) sum += match.cost;
+  return sum / static_cast<double>(enhanced.queries);
+}
+
+}  // namespace
+
+double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
+                      const RelativeScaleOptions& options) {
+  if (!(options.largest > 1) || options.steps < 3 || options.length < 2) {
+    throw std::invalid_argument("relative_scale: largest > 1, steps >= 3 and length >= 2 expected");
+  }
+  if (query.size() < 2 || reference.size() < 2) return 1;
+
+  CostMatrix enhanced = cost_matrix(query, reference);
+  enhance_contrast(enhanced, {.method = Enhancement::kStandardise});
+  const int length = std::min(options.length, static_cast<int>(query.size()));
+  const double step = 2 * std::log(options.largest) / (options.steps - 1);
+  const auto log_scale = [&](double i) { return -std::log(options.largest) + i * step; };
+  std::vector<double> cost;
+  for (int i = 0; i < options.steps; ++i)
+    cost.push_back(mean_best_cost(enhanced, std::exp(log_scale(i)), length));
+
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
+  double peak = static_cast<double>(best);
+  if (best > 0 && best + 1 < cost.size()) {
+    const double before = cost[best - 1], here = cost[best], after = cost[best + 1];
+    const double curvature = before - 2 * here + after;
+    if (curvature > 0) peak += std::clamp((before - after) / (2 * curvature), -0.5, 0.5);
+  }
+  return std::exp(log_scale(peak));
+}
+
+}  // namespace place

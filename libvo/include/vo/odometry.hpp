@@ -1,0 +1,65 @@
+#pragma once
+
+#include "vo/base/progress.hpp"
+#include "vo/image/image_stack.hpp"
+#include "vo/image/patch_normalisation.hpp"
+#include "vo/image/thumbnail.hpp"
+#include "vo/io/frame_source.hpp"
+#include "vo/motion/alignment_error.hpp"
+#include "vo/motion/motion_model.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The whole library on one screen: a walk is read once, and every later stage works on what that pass kept.
+namespace vo {
+
+/// Settings of `read_walk`.
+struct WalkOptions {
+  FrameSourceOptions frames;
+  ThumbnailOptions thumbnail;
+  int preview_width_px = 160;  ///< width of the small JPEG kept of every frame; 0 keeps none
+};
+
+/// What one pass over a recording kept: about 2 kB a frame, and 3 kB more with previews.
+struct Walk {
+  std::string source;  ///< as given: a path, or camera:N
+  int frame_width_px = 0;
+  int frame_height_px = 0;
+  std::vector<double> time_s;  ///< of each frame, since the first, strictly increasing
+  ImageStack thumbnails;       ///< grey, one for each frame
+  std::vector<std::vector<std::uint8_t>>
+      previews;                       ///< JPEG, one for each frame; empty if none were asked for
+  std::vector<std::string> warnings;  ///< what a user should know of the recording
+
+  [[nodiscard]] std::size_t frames() const { return time_s.size(); }
+};
+
+/// Reads a recording (see `open_frame_source` for its forms). Throws `vo::Error` if it cannot be read or has
+/// fewer than two frames. Stops early, with what it has, when `progress` returns false. Reading is serial,
+/// the rest in parallel.
+Walk read_walk(const std::string& source, const WalkOptions& options = {},
+               const ProgressCallback& progress = {});
+
+/// Settings of `visual_motion`.
+struct VisualMotionOptions {
+  PatchNormalisationOptions patch;
+  AlignmentErrorOptions alignment;
+  MotionModelOptions model;
+};
+
+/// The displacement of every frame since the one before it (the first: 0), from alignment error
+/// (SSS 3.1-3.2).
+struct VisualMotion {
+  std::vector<double> displacement;  ///< frames at mean walking speed
+  MotionModel model;                 ///< learned on the whole walk
+};
+
+/// Patch normalisation -> alignment errors -> windows of high error left out -> motion model -> displacement.
+/// Throws `vo::Error` naming the walk if there is no motion to learn from (black, or standing still
+/// throughout).
+VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options = {});
+
+}  // namespace vo

@@ -1,0 +1,90 @@
+#include "vo/odometry.hpp"
+
+#include "vo/base/error.hpp"
+#include "vo/base/parallel.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace vo {
+namespace {
+
+std::vector<std::uint8_t> preview_of(const cv::Mat& image, int width_px) {
+  const int width = std::min(width_px, image.cols);
+  const int height = std::max(1, static_cast<int>(std::int64_t{image.rows} * width / image.cols));
+  cv::Mat small;
+  cv::resize(image, small, {width, height}, 0, 0, cv::INTER_AREA);
+  std::vector<std::uint8_t> jpeg;
+  constexpr int kQuality = 75;
+  cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  return jpeg;
+}
+
+/// What is kept of a batch of frames, worked out in parallel.
+void keep(const std::vector<Frame>& batch, const WalkOptions& options, Walk& walk) {
+  const std::size_t begin = walk.frames();
+  walk.thumbnails.pixels.resize((begin + batch.size()) * walk.thumbnails.image_size());
+  if (options.preview_width_px > 0) walk.previews.resize(begin + batch.size());
+  for (const Frame& frame : batch) walk.time_s.push_back(frame.time_s);
+  parallel_for(batch.size(), [&](std::size_t i) {
+    make_thumbnail(batch[i].image, options.thumbnail, walk.thumbnails[begin + i]);
+    if (options.preview_width_px > 0)
+      walk.previews[begin + i] = preview_of(batch[i].image, options.preview_width_px);
+  });
+}
+
+}  // namespace
+
+Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
+  if (options.preview_width_px < 0) throw std::invalid_argument("read_walk: preview_width_px must be >= 0");
+  const std::unique_ptr<FrameSource> frames = open_frame_source(source, options.frames);
+  const std::string stage = fmt::format("reading {}", source);
+  Walk walk;
+  walk.source = source;
+  walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
+
+  // A few frames for each thread: enough to share the work, little enough for 4K video.
+  const std::size_t batch_size = 4 * static_cast<std::size_t>(thread_count());
+  bool go_on = true;
+  while (go_on) {
+    std::vector<Frame> batch;
+    while (batch.size() < batch_size) {
+      std::optional<Frame> frame = frames->next();
+      if (!frame) break;
+      batch.push_back(std::move(*frame));
+    }
+    if (batch.empty()) break;
+    walk.frame_width_px = batch.front().image.cols;
+    walk.frame_height_px = batch.front().image.rows;
+    keep(batch, options, walk);
+    if (progress) {
+      go_on = progress({.stage = stage,
+                        .done = static_cast<std::int64_t>(walk.frames()),
+                        .total = frames->expected_frames()});
+    }
+  }
+  if (walk.frames() < 2) {
+    throw Error(source, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
+  }
+  walk.warnings = frames->warnings();
+  return walk;
+}
+
+VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options) {
+  const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);
+  if (standing_still(normalised)) {
+    throw Error(walk.source, "shows no motion to learn from", "a walk along which the scene changes");
+  }
+  const AlignmentErrors errors = alignment_errors(normalised, options.alignment);                 // Eq. 1-2
+  const std::vector<bool> excluded = high_error_windows(errors, walk.time_s, options.alignment);  // Fig. 10
+  VisualMotion motion;
+  motion.model = learn_motion_model(mean_error_by_separation(errors, excluded));        // Fig. 3
+  motion.displacement = estimate_motion(errors, excluded, walk.time_s, options.model);  // Eq. 3
+  return motion;
+}
+
+}  // namespace vo
