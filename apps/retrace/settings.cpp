@@ -97,6 +97,9 @@ void add_sampling_options(CLI::App& app, Settings& s) {
   add(app, kSampling, "--max-speed", s.sampling.motion.model.max_speed,
       "times the walk's mean speed; what seems faster is a turn or a jolt")
       ->check(CLI::PositiveNumber);
+  add(app, kSampling, "--standing-span-s", s.sampling.motion.standing.span_s,
+      "seconds after which an unchanged view means standing still; 0 never does")
+      ->check(CLI::NonNegativeNumber);
   add(app, kSampling, "--local-window-s", s.sampling.motion.model.local_window_s,
       "seconds, learn motion from the last so many only [SSS 3]; 0 for the whole walk")
       ->check(CLI::NonNegativeNumber);

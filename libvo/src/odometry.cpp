@@ -75,15 +75,21 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
 }
 
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options) {
-  const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);
-  if (standing_still(normalised)) {
+  const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);  // SSS Eq. 2
+  const double unlike = distant_error(normalised);
+  if (standing_still(unlike)) {
     throw Error(walk.source, "shows no motion to learn from", "a walk along which the scene changes");
   }
-  const AlignmentErrors errors = alignment_errors(normalised, options.alignment);                 // Eq. 1-2
+  const AlignmentErrors errors = alignment_errors(normalised, options.alignment);                 // Eq. 1
   const std::vector<bool> excluded = high_error_windows(errors, walk.time_s, options.alignment);  // Fig. 10
+  const std::vector<double> mean_error = mean_error_by_separation(errors, excluded);              // Fig. 2
   VisualMotion motion;
-  motion.model = learn_motion_model(mean_error_by_separation(errors, excluded));        // Fig. 3
+  motion.model = learn_motion_model(mean_error);                                        // Fig. 3
   motion.displacement = estimate_motion(errors, excluded, walk.time_s, options.model);  // Eq. 3
+  motion.standing = standing_steps(normalised, walk.time_s, unlike, options.standing);
+  for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
+    if (motion.standing[i]) motion.displacement[i] = 0;
+  }
   return motion;
 }
 

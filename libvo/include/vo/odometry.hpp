@@ -7,6 +7,7 @@
 #include "vo/io/frame_source.hpp"
 #include "vo/motion/alignment_error.hpp"
 #include "vo/motion/motion_model.hpp"
+#include "vo/motion/standing.hpp"
 
 #include <cstdint>
 #include <span>
@@ -48,18 +49,20 @@ struct VisualMotionOptions {
   PatchNormalisationOptions patch;
   AlignmentErrorOptions alignment;
   MotionModelOptions model;
+  StandingOptions standing;
 };
 
 /// The displacement of every frame since the one before it (the first: 0), from alignment error
 /// (SSS 3.1-3.2).
 struct VisualMotion {
   std::vector<double> displacement;  ///< frames at mean walking speed
+  std::vector<bool> standing;        ///< the steps, among them, that are 0 because the walker stands
   MotionModel model;                 ///< learned on the whole walk
 };
 
-/// Patch normalisation -> alignment errors -> windows of high error left out -> motion model -> displacement.
-/// Throws `vo::Error` naming the walk if there is no motion to learn from (black, or standing still
-/// throughout).
+/// Patch normalisation -> alignment errors -> windows of high error left out -> motion model -> displacement
+/// -> standing. Throws `vo::Error` naming the walk if there is no motion to learn from (black, or standing
+/// still throughout).
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options = {});
 
 }  // namespace vo

@@ -5,18 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
 namespace vo {
 namespace {
-
-std::uint32_t absolute_difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  std::uint32_t sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += static_cast<std::uint32_t>(std::abs(a[k] - b[k]));
-  return sum;
-}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -26,6 +19,14 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+double alignment_error(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  if (a.size() != b.size() || a.empty())
+    throw std::invalid_argument("alignment_error: two images of one size expected");
+  std::uint32_t sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += static_cast<std::uint32_t>(std::abs(a[k] - b[k]));
+  return sum / (kStepsPerDeviation * static_cast<double>(a.size()));
+}
+
 AlignmentErrors alignment_errors(const ImageStack& normalised, const AlignmentErrorOptions& options) {
   if (options.max_separation < 1)
     throw std::invalid_argument("alignment_errors: max_separation must be >= 1");
@@ -34,11 +35,9 @@ AlignmentErrors alignment_errors(const ImageStack& normalised, const AlignmentEr
   for (std::size_t s = 0; s <= static_cast<std::size_t>(options.max_separation); ++s) {
     errors.by_separation.emplace_back(frames > s ? frames - s : 0, 0.0F);
   }
-  const double scale = 1 / (kStepsPerDeviation * static_cast<double>(normalised.image_size()));
   parallel_for(frames, [&](std::size_t i) {
     for (std::size_t s = 1; s < errors.by_separation.size() && i + s < frames; ++s) {
-      const std::uint32_t sum = absolute_difference(normalised[i], normalised[i + s]);
-      errors.by_separation[s][i] = static_cast<float>(sum * scale);
+      errors.by_separation[s][i] = static_cast<float>(alignment_error(normalised[i], normalised[i + s]));
     }
   });
   return errors;
@@ -95,18 +94,6 @@ std::vector<double> mean_error_by_separation(const AlignmentErrors& errors,
     means.push_back(count > 0 ? sum / static_cast<double>(count) : (means.empty() ? 0 : means.back()));
   }
   return means;
-}
-
-bool standing_still(const ImageStack& normalised) {
-  const std::size_t half = normalised.size() / 2;
-  if (half == 0) return true;
-  const double unrelated =
-      2 / std::sqrt(std::numbers::pi) * kStepsPerDeviation * static_cast<double>(normalised.image_size());
-  std::vector<double> errors;
-  for (std::size_t i = 0; i + half < normalised.size(); ++i) {
-    errors.push_back(absolute_difference(normalised[i], normalised[i + half]));
-  }
-  return median(std::move(errors)) < unrelated / 3;
 }
 
 }  // namespace vo

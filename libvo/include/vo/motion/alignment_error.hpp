@@ -24,6 +24,10 @@ struct AlignmentErrorOptions {
   double high_error_mads = 3;  ///< a window this many median absolute deviations above the median is left out
 };
 
+/// Mean absolute difference of two patch-normalised images (bytes), in standard deviations of a patch. Exact
+/// integer sums. Throws `std::invalid_argument` unless they are of one size and not empty.
+double alignment_error(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
+
 /// SSS Eq. 1 before its average. `normalised`: bytes of `patch_normalise`, in order of time. Exact integer
 /// sums. Throws `std::invalid_argument` if max_separation < 1. O(frames * separations * pixels), in parallel
 /// over frames.
@@ -41,10 +45,5 @@ std::vector<bool> high_error_windows(const AlignmentErrors& errors, std::span<co
 /// the one before.
 std::vector<double> mean_error_by_separation(const AlignmentErrors& errors,
                                              const std::vector<bool>& excluded = {});
-
-/// True if the walk never leaves its first view: frames half the walk apart are as alike as neighbours would
-/// be, or there is nothing to be seen at all. The median error of such pairs is then below a third of 2 /
-/// sqrt(pi) = 1.13, that of two unrelated pictures (independent normal pixels). O(frames * pixels).
-bool standing_still(const ImageStack& normalised);
 
 }  // namespace vo

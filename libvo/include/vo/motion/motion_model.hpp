@@ -21,7 +21,7 @@ struct MotionModelOptions {
   /// Frame separations whose estimates are compared for each frame, 1 .. this. 1 is SSS Eq. 3 to the letter.
   /// Image bounce and sway add to the error at small separations as motion does, but do not grow with the
   /// separation.
-  int separations = 10;
+  int separations = 5;
   /// Times the mean speed of the walk: what is faster is a turn or a jolt, not walking. Infinity leaves it
   /// out.
   double max_speed = 2;

@@ -1,0 +1,58 @@
+#include "vo/motion/standing.hpp"
+
+#include "vo/base/parallel.hpp"
+#include "vo/motion/alignment_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace vo {
+
+double distant_error(const ImageStack& normalised) {
+  const std::size_t half = normalised.size() / 2;
+  if (half == 0) return 0;
+  std::vector<double> errors(normalised.size() - half);
+  parallel_for(errors.size(),
+               [&](std::size_t i) { errors[i] = alignment_error(normalised[i], normalised[i + half]); });
+  const auto median = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::ranges::nth_element(errors, median);
+  return *median;
+}
+
+bool standing_still(double distant_error) {
+  return distant_error < 2 / std::sqrt(std::numbers::pi) / 3;
+}
+
+std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const double> time_s,
+                                 double distant_error, const StandingOptions& options) {
+  if (time_s.size() != normalised.size())
+    throw std::invalid_argument("standing_steps: one time per frame expected");
+  std::vector<bool> standing(normalised.size(), false);
+  if (!(options.span_s > 0)) return standing;
+
+  const auto frame_at = [&](double s) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
+  };
+  const double limit = options.alike * distant_error;
+  std::vector<std::size_t> last(normalised.size(),
+                                0);  // of the standing span that starts at each frame; 0: none does
+  parallel_for(normalised.size(), [&](std::size_t first) {
+    const std::size_t middle = frame_at(time_s[first] + options.span_s / 2);
+    const std::size_t end = frame_at(time_s[first] + options.span_s);
+    if (end >= normalised.size() || middle == first || end == middle) return;
+    const auto alike = [&](std::size_t a, std::size_t b) {
+      return alignment_error(normalised[a], normalised[b]) < limit;
+    };
+    if (alike(first, middle) && alike(middle, end) && alike(first, end)) last[first] = end;
+  });
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i + 1 < standing.size(); ++i) {
+    covered = std::max(covered, last[i]);
+    standing[i + 1] = i + 1 <= covered;
+  }
+  return standing;
+}
+
+}  // namespace vo
