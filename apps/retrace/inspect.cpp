@@ -74,7 +74,7 @@ void print(const std::string& path, const place::Route& route) {
              static_cast<double>(std::filesystem::file_size(path)) / 1e6, place::kRouteSchemaVersion,
              route.software_version);
   fmt::print(
-      "thumbnails {}x{} px; patches {} px, {}, at least {} grey levels or {} of the picture's deviation\n",
+      "thumbnails {}x{} px; patches {} px, {}, at least {} grey levels or {} of their median deviation\n",
       route.thumbnail.width, route.thumbnail.height, route.patch.patch_px, name_of(route.patch.shape),
       route.patch.min_deviation, route.patch.min_contrast);
   if (route.sampling.motion == place::MotionSource::kNone) {

@@ -79,7 +79,7 @@ void add_frame_options(CLI::App& app, Settings& s) {
       "grey levels; a flatter patch counts as having this deviation")
       ->check(CLI::PositiveNumber);
   add(app, kFrames, "--patch-min-contrast", s.patch.min_contrast,
-      "the same, as a share of the deviation of the whole picture")
+      "the same, as a share of the median deviation of the picture's patches")
       ->check(CLI::Range(0.0, 10.0));
 }
 

@@ -33,19 +33,17 @@ double relative_scale(const vo::ImageStack& query, const vo::ImageStack& referen
   enhance_contrast(enhanced, {.method = Enhancement::kStandardise});
   const int length = std::min(options.length, static_cast<int>(query.size()));
   const double step = 2 * std::log(options.largest) / (options.steps - 1);
-  const auto log_scale = [&](double i) { return -std::log(options.largest) + i * step; };
+  const auto log_scale = [&](std::ptrdiff_t i) {
+    return -std::log(options.largest) + static_cast<double>(i) * step;
+  };
   std::vector<double> cost;
   for (int i = 0; i < options.steps; ++i)
     cost.push_back(mean_best_cost(enhanced, std::exp(log_scale(i)), length));
 
-  const auto best = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
-  double peak = static_cast<double>(best);
-  if (best > 0 && best + 1 < cost.size()) {
-    const double before = cost[best - 1], here = cost[best], after = cost[best + 1];
-    const double curvature = before - 2 * here + after;
-    if (curvature > 0) peak += std::clamp((before - after) / (2 * curvature), -0.5, 0.5);
-  }
-  return std::exp(log_scale(peak));
+  // Slopes that round to the same line cost the same: the middle of the cheapest stretch.
+  const auto first = std::ranges::min_element(cost);
+  const auto last = std::find_if(first, cost.end(), [&](double c) { return c != *first; }) - 1;
+  return std::exp((log_scale(first - cost.begin()) + log_scale(last - cost.begin())) / 2);
 }
 
 }  // namespace place

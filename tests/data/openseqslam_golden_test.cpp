@@ -1,3 +1,5 @@
+#include "support/shared_data.hpp"
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -8,8 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <place/openseqslam.hpp>
-
-#include "support/shared_data.hpp"
 
 namespace {
 
@@ -28,7 +28,8 @@ class OpenSeqSlamGolden : public testing::TestWithParam<const char*> {
   [[nodiscard]] vo::ImageStack images(const std::string& name) const {
     vo::ImageStack stack = vo::make_image_stack(64, 32, 300);
     std::ifstream file(folder_ / name, std::ios::binary);
-    file.read(reinterpret_cast<char*>(stack.pixels.data()), static_cast<std::streamsize>(stack.pixels.size()));
+    file.read(reinterpret_cast<char*>(stack.pixels.data()),
+              static_cast<std::streamsize>(stack.pixels.size()));
     EXPECT_EQ(file.gcount(), static_cast<std::streamsize>(stack.pixels.size())) << name;
     return stack;
   }
@@ -64,12 +65,15 @@ class OpenSeqSlamGolden : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(OpenSeqSlamGolden, PatchNormalisation) {
-  EXPECT_EQ(patch_normalise(images("grey_ref_u8_300x32x64.bin"), options_).pixels, images("P_ref_u8.bin").pixels);
-  EXPECT_EQ(patch_normalise(images("grey_qry_u8_300x32x64.bin"), options_).pixels, images("P_qry_u8.bin").pixels);
+  EXPECT_EQ(patch_normalise(images("grey_ref_u8_300x32x64.bin"), options_).pixels,
+            images("P_ref_u8.bin").pixels);
+  EXPECT_EQ(patch_normalise(images("grey_qry_u8_300x32x64.bin"), options_).pixels,
+            images("P_qry_u8.bin").pixels);
 }
 
 TEST_P(OpenSeqSlamGolden, DifferenceAndEnhancedMatrix) {
-  const place::CostMatrix differences = difference_matrix(images("P_qry_u8.bin"), images("P_ref_u8.bin"), options_);
+  const place::CostMatrix differences =
+      difference_matrix(images("P_qry_u8.bin"), images("P_ref_u8.bin"), options_);
   expect_equal(differences, table("D.csv"));
   expect_equal(enhance(differences, options_), table("DD.csv"));
 }

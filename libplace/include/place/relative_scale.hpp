@@ -8,7 +8,7 @@ namespace place {
 struct RelativeScaleOptions {
   double largest =
       4;  ///< scales 1 / largest .. largest are tried; a walk is seldom four times as fast as another
-  int steps = 25;   ///< scales tried, evenly spaced in their logarithm
+  int steps = 97;   ///< scales tried, evenly spaced in their logarithm
   int length = 10;  ///< keyframes on a line, fewer if the query is shorter
 };
 
@@ -18,7 +18,6 @@ struct RelativeScaleOptions {
 /// walks at different mean speeds, frame rates or lights are sampled at different distances, and their path
 /// through the cost matrix is straight but not at 45 degrees. Lines of a single slope are searched through
 /// the whole standardised matrix; the right slope is the one whose best lines are cheapest on average.
-/// Between the slopes tried, a parabola in log slope.
 ///
 /// `query`, `reference`: descriptors of keyframes, of one size. Returns 1 if either has fewer than 2
 /// keyframes. O(queries * references * (pixels + steps * length)), in parallel over queries.

@@ -25,7 +25,7 @@ enum class MotionSource {
 struct Sampling {
   MotionSource motion = MotionSource::kSad;
   int every = 1;  ///< frames between keyframes, with `kNone`
-  double n = 5;   ///< SSS Eq. 4's n, with motion
+  double n = 6;   ///< SSS Eq. 4's n, with motion
   double unit =
       0;  ///< SSS Eq. 4's u, in the displacement's unit, learned from the first traverse; with motion
 };

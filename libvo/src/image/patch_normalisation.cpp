@@ -13,7 +13,8 @@ namespace {
 /// Sums of a rectangle of the image and of its squares, by summed-area tables.
 class PatchSums {
  public:
-  PatchSums(std::span<const std::uint8_t> image, int width, int height) : stride_(width + 1) {
+  PatchSums(std::span<const std::uint8_t> image, int width, int height)
+      : width_(width), height_(height), stride_(width + 1) {
     sums_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 1));
     for (int y = 0; y < height; ++y) {
       Moments row;
@@ -41,12 +42,27 @@ class PatchSums {
     return {static_cast<double>(sum) / n, std::sqrt(static_cast<double>(count * square - sum * sum)) / n};
   }
 
+  /// The median deviation of the cells of a grid, cut at the right and lower border.
+  double median_deviation(int side) {
+    std::vector<double> deviations;
+    for (int y = 0; y < height_; y += side) {
+      for (int x = 0; x < width_; x += side) {
+        deviations.push_back(over(x, y, std::min(width_, x + side), std::min(height_, y + side)).deviation);
+      }
+    }
+    const auto median = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+    std::ranges::nth_element(deviations, median);
+    return *median;
+  }
+
  private:
   struct Moments {
     std::int64_t sum = 0, square = 0;
   };
   Moments& at(int x, int y) { return sums_[static_cast<std::size_t>(y) * stride_ + x]; }
 
+  int width_;
+  int height_;
   int stride_;
   std::vector<Moments> sums_;
 };
@@ -75,7 +91,7 @@ void patch_normalise(std::span<const std::uint8_t> image, int width, int height,
     throw std::invalid_argument("patch_normalise: out must be as large as the image");
   PatchSums sums(image, width, height);
   const double floor =
-      std::max(options.min_deviation, options.min_contrast * sums.over(0, 0, width, height).deviation);
+      std::max(options.min_deviation, options.min_contrast * sums.median_deviation(options.patch_px));
   const auto normalise = [&](int x, int y, const PatchSums::Statistics& patch) {
     const std::size_t k = static_cast<std::size_t>(y) * width + x;
     out[k] = static_cast<float>((image[k] - patch.mean) / std::max(patch.deviation, floor));

@@ -18,9 +18,9 @@ struct PatchNormalisationOptions {
   int patch_px = 8;  ///< side of a cell; a window is the next odd number wide (OpenSeqSLAM: 8)
   PatchShape shape = PatchShape::kGrid;  ///< see PatchShape
   double min_deviation = 1;  ///< grey levels; a flatter patch is divided by this, so noise is not blown up
-  /// The same as a share of the deviation of the whole image, so that it follows exposure and contrast; the
-  /// larger of both floors holds. 0 leaves it out.
-  double min_contrast = 0.15;
+  /// The same as a share of the median deviation of the image's grid cells, so that it follows exposure and
+  /// contrast and a few bright lamps do not raise it; the larger of both floors holds. 0 leaves it out.
+  double min_contrast = 1.25;
 };
 
 /// Bytes stand for standard deviations from the patch mean: 128 is the mean (and any pixel of a patch without

@@ -18,7 +18,7 @@ bool standing_still(double distant_error);
 
 /// Settings of `standing_steps`.
 struct StandingOptions {
-  double span_s = 2;       ///< seconds over which a walker's view changes for good, a standing one's not; 0: never
+  double span_s = 2;  ///< seconds over which a walker's view changes for good, a standing one's not; 0: never
   double alike = 2.0 / 3;  ///< share of the distant error below which two views are of one place
 };
 
