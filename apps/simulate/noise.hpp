@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include <opencv2/core.hpp>
+
+namespace simulate {
+
+/// 32 well mixed bits of a lattice point.
+std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::uint32_t seed);
+
+/// Uniform in [0, 1) for a lattice point.
+float lattice_uniform(std::int32_t x, std::int32_t y, std::uint32_t seed);
+
+/// Smooth value noise in [-1, 1] with features of size 1.
+float value_noise(float x, float y, std::uint32_t seed);
+
+/// Octaves of value noise, each twice as fine and `gain` times as strong, scaled to [-1, 1]: texture at every
+/// scale from 1 down to 2^(1 - octaves).
+float fractal_noise(float x, float y, int octaves, std::uint32_t seed, float gain = 0.6F);
+
+/// An image (CV_32F) of fractal noise whose largest features measure `feature_px`, down to single pixels.
+cv::Mat1f fractal_image(cv::Size size, cv::Size2f feature_px, std::uint32_t seed);
+
+}  // namespace simulate
