@@ -3,22 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 namespace simulate {
 namespace {
+
+// A world of texels is painted with these, so they avoid the calls behind std::floor and std::lerp.
+std::int32_t floor_to_int(float x) {
+  const auto i = static_cast<std::int32_t>(x);
+  return static_cast<float>(i) > x ? i - 1 : i;
+}
 
 float smooth(float t) {
   return t * t * (3 - 2 * t);
 }
 
+float mix(float a, float b, float t) {
+  return a + (b - a) * t;
+}
+
 }  // namespace
 
 std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::uint32_t seed) {
-  std::uint32_t h = seed;
-  h ^= static_cast<std::uint32_t>(x) * 0x9e3779b1U;
-  h = (h ^ (h >> 15U)) * 0x85ebca77U;
-  h ^= static_cast<std::uint32_t>(y) * 0xc2b2ae3dU;
-  h = (h ^ (h >> 13U)) * 0x27d4eb2fU;
-  h = (h ^ (h >> 16U)) * 0x165667b1U;
+  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b1U ^ static_cast<std::uint32_t>(y) * 0x85ebca77U;
+  h = (h ^ seed ^ (h >> 15U)) * 0x2c1b3c6dU;
+  h = (h ^ (h >> 12U)) * 0x297a2d39U;
   return h ^ (h >> 15U);
 }
 
@@ -27,16 +36,13 @@ float lattice_uniform(std::int32_t x, std::int32_t y, std::uint32_t seed) {
 }
 
 float value_noise(float x, float y, std::uint32_t seed) {
-  const float fx = std::floor(x);
-  const float fy = std::floor(y);
-  const auto ix = static_cast<std::int32_t>(fx);
-  const auto iy = static_cast<std::int32_t>(fy);
-  const float tx = smooth(x - fx);
-  const float ty = smooth(y - fy);
-  const float top = std::lerp(lattice_uniform(ix, iy, seed), lattice_uniform(ix + 1, iy, seed), tx);
-  const float bottom =
-      std::lerp(lattice_uniform(ix, iy + 1, seed), lattice_uniform(ix + 1, iy + 1, seed), tx);
-  return 2 * std::lerp(top, bottom, ty) - 1;
+  const std::int32_t ix = floor_to_int(x);
+  const std::int32_t iy = floor_to_int(y);
+  const float tx = smooth(x - static_cast<float>(ix));
+  const float ty = smooth(y - static_cast<float>(iy));
+  const float top = mix(lattice_uniform(ix, iy, seed), lattice_uniform(ix + 1, iy, seed), tx);
+  const float bottom = mix(lattice_uniform(ix, iy + 1, seed), lattice_uniform(ix + 1, iy + 1, seed), tx);
+  return 2 * mix(top, bottom, ty) - 1;
 }
 
 float fractal_noise(float x, float y, int octaves, std::uint32_t seed, float gain) {
@@ -51,17 +57,30 @@ float fractal_noise(float x, float y, int octaves, std::uint32_t seed, float gai
   return sum / total;
 }
 
-cv::Mat1f fractal_image(cv::Size size, cv::Size2f feature_px, std::uint32_t seed) {
-  const float longest = std::max({feature_px.width, feature_px.height, 1.0F});
-  const int octaves = 1 + static_cast<int>(std::log2(longest));
-  cv::Mat1f image(size);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      image(y, x) = fractal_noise(static_cast<float>(x) / feature_px.width,
-                                  static_cast<float>(y) / feature_px.height, octaves, seed);
+cv::Mat1f fractal_image(cv::Size size, cv::Size2f feature_px, std::uint32_t seed, float gain) {
+  cv::Mat1f sum = cv::Mat1f::zeros(size);
+  float weight = 1, total = 0;
+  cv::Size2f feature = feature_px;
+  for (std::uint32_t octave = 0;; ++octave) {
+    // One lattice value per feature, blown up; two more so that the interpolation never sees the lattice's
+    // edge.
+    const cv::Size lattice_size(static_cast<int>(static_cast<float>(size.width) / feature.width) + 3,
+                                static_cast<int>(static_cast<float>(size.height) / feature.height) + 3);
+    cv::Mat1f lattice(lattice_size);
+    for (int y = 0; y < lattice.rows; ++y) {
+      for (int x = 0; x < lattice.cols; ++x)
+        lattice(y, x) = 2 * lattice_uniform(x, y, seed + octave * 0x632be5abU) - 1;
     }
+    const cv::Matx23d lattice_from_image(1 / feature.width, 0, 0.5, 0, 1 / feature.height, 0.5);
+    cv::Mat layer;
+    cv::warpAffine(lattice, layer, lattice_from_image, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+    cv::scaleAdd(layer, weight, sum, sum);
+    total += weight;
+    if (std::max(feature.width, feature.height) <= 1) break;
+    weight *= gain;
+    feature = {std::max(1.0F, feature.width / 2), std::max(1.0F, feature.height / 2)};
   }
-  return image;
+  return sum / total;
 }
 
 }  // namespace simulate

@@ -19,7 +19,7 @@ float value_noise(float x, float y, std::uint32_t seed);
 /// scale from 1 down to 2^(1 - octaves).
 float fractal_noise(float x, float y, int octaves, std::uint32_t seed, float gain = 0.6F);
 
-/// An image (CV_32F) of fractal noise whose largest features measure `feature_px`, down to single pixels.
-cv::Mat1f fractal_image(cv::Size size, cv::Size2f feature_px, std::uint32_t seed);
+/// An image of fractal noise in [-1, 1] whose largest features measure `feature_px`, down to single pixels.
+cv::Mat1f fractal_image(cv::Size size, cv::Size2f feature_px, std::uint32_t seed, float gain = 0.7F);
 
 }  // namespace simulate

@@ -1,8 +1,9 @@
 #include "rasteriser.hpp"
 
+#include "texture_filter.hpp"
+
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -14,8 +15,7 @@ namespace {
 constexpr float kNear_m = 0.1F;
 constexpr double kFar_m = 250;  // corners hide what is further along the route; the backdrop is exempt
 constexpr int kBandRows = 12;
-constexpr int kBlock = 8;       // pixels that share a mip level and a haze weight
-constexpr int kMaxSamples = 3;  // along the longer side of a pixel's footprint
+constexpr int kBlock = 16;  // pixels that may share a mip level and a haze weight
 
 // A linear function of the pixel: value = at(x, y) = x * dx + y * dy + c.
 struct Plane {
@@ -115,132 +115,100 @@ std::pair<int, int> row_span(const Facet& facet, float y, int width) {
   return {static_cast<int>(std::ceil(left - 0.5F)), static_cast<int>(std::ceil(right - 0.5F))};
 }
 
-// Texels are worked on as four 16-bit lanes: blue, red, green, alpha.
-std::uint64_t lanes(std::uint32_t texel) {
-  return (texel & 0x00ff00ffU) | (static_cast<std::uint64_t>(texel & 0xff00ff00U) << 24U);
+TextureFilter filter_at(const Facet& facet, float x, float y) {
+  const float z = 1.0F / facet.inverse_z.at(x, y);
+  const float u = facet.u_over_z.at(x, y) * z;
+  const float v = facet.v_over_z.at(x, y) * z;
+  return TextureFilter(
+      *facet.texture,
+      {(facet.u_over_z.dx - u * facet.inverse_z.dx) * z, (facet.v_over_z.dx - v * facet.inverse_z.dx) * z,
+       (facet.u_over_z.dy - u * facet.inverse_z.dy) * z, (facet.v_over_z.dy - v * facet.inverse_z.dy) * z});
 }
 
-constexpr std::uint64_t kLaneLow = 0x00ff00ff00ff00ffU;
-
-// Bilinear at (u, v) in [0, 1]; each lane ends up in 0..255.
-std::uint64_t sample_level(const Texture::Level& level, float u, float v) {
-  const float x =
-      std::clamp(u * static_cast<float>(level.width) - 0.5F, 0.0F, static_cast<float>(level.width - 1));
-  const float y =
-      std::clamp(v * static_cast<float>(level.height) - 0.5F, 0.0F, static_cast<float>(level.height - 1));
-  const auto x256 = static_cast<std::uint32_t>(x * 256.0F);
-  const auto y16 = static_cast<std::uint32_t>(y * 16.0F);
-  const std::uint32_t fx = (x256 & 255U) >> 4U;  // weights in sixteenths: their products sum to 256
-  const std::uint32_t fy = y16 & 15U;
-  const auto stride = static_cast<std::size_t>(level.width) + 1;
-  const std::uint32_t* texel = level.texels + (y16 >> 4U) * stride + (x256 >> 8U);
-  const std::uint64_t sum = lanes(texel[0]) * ((16 - fx) * (16 - fy)) + lanes(texel[1]) * (fx * (16 - fy)) +
-                            lanes(texel[stride]) * ((16 - fx) * fy) + lanes(texel[stride + 1]) * (fx * fy);
-  return (sum >> 8U) & kLaneLow;
-}
-
-// log2 to within 0.09: the exponent, and the mantissa taken as linear.
-float fast_log2(float x) {
-  return static_cast<float>(std::bit_cast<std::uint32_t>(x)) * 0x1.0p-23F - 127.0F;
-}
-
-// How a block of pixels reads its texture: which two levels, how much of the second, how many taps and where.
-struct Filter {
-  Texture::Level fine, coarse;
-  std::uint32_t coarse_weight;  // of 16
-  int taps;
-  float tap_du, tap_dv;
+// One row of the image while it is drawn: which facet is in front at each pixel, and its 1/z (0 at infinity).
+struct Row {
+  int index;
+  std::vector<float> depth;
+  std::vector<std::int32_t> front;
 };
 
-Filter choose_filter(const Facet& facet, float u, float v, float z) {
-  const Texture::Level base = facet.texture->level(0);
-  const auto width = static_cast<float>(base.width);
-  const auto height = static_cast<float>(base.height);
-  const float ux = (facet.u_over_z.dx - u * facet.inverse_z.dx) * z;
-  const float vx = (facet.v_over_z.dx - v * facet.inverse_z.dx) * z;
-  const float uy = (facet.u_over_z.dy - u * facet.inverse_z.dy) * z;
-  const float vy = (facet.v_over_z.dy - v * facet.inverse_z.dy) * z;
-  const float along_x = ux * ux * width * width + vx * vx * height * height;
-  const float along_y = uy * uy * width * width + vy * vy * height * height;
-  const bool x_is_longer = along_x > along_y;
-  const float longer = std::max(std::max(along_x, along_y), 1e-6F);
-  const float shorter = std::max(std::min(along_x, along_y), 1e-6F);
+constexpr std::int32_t kNothing = -1;
 
-  Filter filter;
-  // Squared lengths: 2.25 = 1.5^2 is where two taps are nearer than one, 6.25 = 2.5^2 three nearer than two.
-  const float ratio = longer < 1 ? 1 : longer / shorter;
-  filter.taps = ratio < 2.25F ? 1 : ratio < 6.25F ? 2 : kMaxSamples;
-  const auto taps = static_cast<float>(filter.taps);
-  filter.tap_du = (x_is_longer ? ux : uy) / taps;
-  filter.tap_dv = (x_is_longer ? vx : vy) / taps;
-  const float lod = std::clamp(0.5F * fast_log2(longer / (taps * taps)), 0.0F,
-                               static_cast<float>(facet.texture->level_count() - 1));
-  const int fine = static_cast<int>(lod);
-  filter.fine = facet.texture->level(fine);
-  filter.coarse_weight = static_cast<std::uint32_t>((lod - static_cast<float>(fine)) * 16.0F);
-  filter.coarse = filter.coarse_weight > 0 ? facet.texture->level(fine + 1) : filter.fine;
-  return filter;
+void resolve_opaque(const Facet& facet, std::int32_t id, int first, int last, Row& row) {
+  const float base = facet.inverse_z.at(0.5F, static_cast<float>(row.index) + 0.5F);
+  const float slope = facet.inverse_z.dx;
+  float* depth = row.depth.data();
+  std::int32_t* front = row.front.data();
+  for (int column = first; column < last; ++column) {  // without branches, so that compilers vectorise it
+    const float inverse_z = base + slope * static_cast<float>(column);
+    const bool nearer = inverse_z > depth[column];
+    depth[column] = nearer ? inverse_z : depth[column];
+    front[column] = nearer ? id : front[column];
+  }
 }
 
-std::uint64_t sample(const Filter& filter, float u, float v) {
-  static constexpr std::array<std::uint64_t, kMaxSamples + 1> kTapWeight{0, 256, 128, 85};
-  const float first = 0.5F * static_cast<float>(1 - filter.taps);
-  u += first * filter.tap_du;
-  v += first * filter.tap_dv;
-  std::uint64_t sum = 0;
-  for (int tap = 0; tap < filter.taps; ++tap, u += filter.tap_du, v += filter.tap_dv) {
-    std::uint64_t texel = sample_level(filter.fine, u, v);
-    if (filter.coarse_weight > 0) {
-      texel =
-          ((texel * (16 - filter.coarse_weight) + sample_level(filter.coarse, u, v) * filter.coarse_weight) >>
-           4U) &
-          kLaneLow;
+void resolve_cut_out(const Facet& facet, std::int32_t id, int first, int last, Row& row) {
+  const float y = static_cast<float>(row.index) + 0.5F;
+  float* depth = row.depth.data();
+  const auto is_nearer = [&](int column) {
+    return facet.inverse_z.at(static_cast<float>(column) + 0.5F, y) > depth[column];
+  };
+  for (int begin = first; begin < last; begin += kBlock) {
+    const int end = std::min(begin + kBlock, last);
+    int column = begin;
+    while (column < end && !is_nearer(column)) ++column;
+    if (column == end) continue;
+    const TextureFilter filter = filter_at(facet, static_cast<float>(column) + 0.5F, y);
+    for (; column < end; ++column) {
+      if (!is_nearer(column)) continue;
+      const float x = static_cast<float>(column) + 0.5F;
+      const float inverse_z = facet.inverse_z.at(x, y);
+      if (alpha_of(filter.sample(facet.u_over_z.at(x, y) / inverse_z, facet.v_over_z.at(x, y) / inverse_z)) <
+          128) {
+        continue;
+      }
+      depth[column] = inverse_z;
+      row.front[static_cast<std::size_t>(column)] = id;
     }
-    sum += texel;
   }
-  return filter.taps == 1 ? sum
-                          : ((sum * kTapWeight[static_cast<std::size_t>(filter.taps)]) >> 8U) & kLaneLow;
 }
 
 // What a frame's pixels are mixed with.
 struct Air {
-  std::uint64_t haze;
+  Lanes haze;
   float inverse_distance;
 };
 
-void draw_span(const Facet& facet, int row, int first, int last, const Air& air, float* depth,
-               std::uint8_t* bgr) {
+// Colours pixels [first, last), which all show one facet. They share a mip level and a haze weight.
+void shade_block(const Facet& facet, int row, int first, int last, const Air& air, std::uint8_t* bgr) {
   const float y = static_cast<float>(row) + 0.5F;
-  const bool opaque = facet.texture->opaque();
-  for (int begin = first; begin < last; begin += kBlock) {
-    const int end = std::min(begin + kBlock, last);
-    // Level and haze are chosen at the block's middle, only if one of its pixels is in front.
-    bool chosen = false;
-    Filter filter{};
-    std::uint64_t own = 256;
-    std::uint64_t veil = 0;
-    for (int column = begin; column < end; ++column) {
-      const float x = static_cast<float>(column) + 0.5F;
-      const float inverse_z = facet.inverse_z.at(x, y);
-      if (inverse_z <= depth[column]) continue;
-      const float z = 1.0F / inverse_z;
-      const float u = facet.u_over_z.at(x, y) * z;
-      const float v = facet.v_over_z.at(x, y) * z;
-      if (!chosen) {
-        filter = choose_filter(facet, u, v, z);
-        const float keep = facet.hazed ? std::exp(-z * air.inverse_distance) : 1.0F;
-        own = static_cast<std::uint64_t>(256.0F * keep * facet.gain);
-        veil = air.haze * static_cast<std::uint64_t>(256.0F * (1.0F - keep));
-        chosen = true;
-      }
-      const std::uint64_t texel = sample(filter, u, v);
-      if (!opaque && (texel >> 48U) < 128U) continue;
-      const std::uint64_t mixed = texel * own + veil;
-      depth[column] = inverse_z;
-      bgr[3 * column + 0] = static_cast<std::uint8_t>(mixed >> 8U);
-      bgr[3 * column + 1] = static_cast<std::uint8_t>(mixed >> 40U);
-      bgr[3 * column + 2] = static_cast<std::uint8_t>(mixed >> 24U);
+  const float middle = 0.5F * static_cast<float>(first + last);
+  const float middle_z = 1.0F / facet.inverse_z.at(middle, y);
+  const TextureFilter filter = filter_at(facet, middle, y);
+  const float keep = facet.hazed ? std::exp(-middle_z * air.inverse_distance) : 1.0F;
+  const auto own = static_cast<Lanes>(256.0F * keep * facet.gain);
+  const Lanes veil = air.haze * static_cast<Lanes>(256.0F * (1.0F - keep));
+  for (int column = first; column < last; ++column) {
+    const float x = static_cast<float>(column) + 0.5F;
+    const float z = 1.0F / facet.inverse_z.at(x, y);
+    const Lanes mixed = filter.sample(facet.u_over_z.at(x, y) * z, facet.v_over_z.at(x, y) * z) * own + veil;
+    store_bgr(mixed, bgr + static_cast<std::ptrdiff_t>(3) * column);
+  }
+}
+
+void shade_row(const std::vector<Facet>& facets, const Row& row, const Air& air, std::uint8_t* bgr) {
+  const int width = static_cast<int>(row.front.size());
+  for (int begin = 0; begin < width;) {
+    const std::int32_t id = row.front[static_cast<std::size_t>(begin)];
+    int end = begin + 1;
+    while (end < width && end < begin + kBlock && row.front[static_cast<std::size_t>(end)] == id) ++end;
+    if (id == kNothing) {
+      std::fill(bgr + static_cast<std::ptrdiff_t>(3) * begin, bgr + static_cast<std::ptrdiff_t>(3) * end,
+                std::uint8_t{0});
+    } else {
+      shade_block(facets[static_cast<std::size_t>(id)], row.index, begin, end, air, bgr);
     }
+    begin = end;
   }
 }
 
@@ -260,24 +228,27 @@ void rasterise(const std::vector<Surface>& surfaces, const std::vector<Surface>&
   std::ranges::stable_sort(facets, {}, &Facet::nearest_m);
   for (const Surface& surface : backdrop) add_facet(surface, camera_from_world, camera, true, facets);
 
-  const Air air{haze.bgr[0] | static_cast<std::uint64_t>(haze.bgr[2]) << 16U |
-                    static_cast<std::uint64_t>(haze.bgr[1]) << 32U,
+  const Air air{lanes_of(static_cast<std::uint32_t>(haze.bgr[0] | haze.bgr[1] << 8 | haze.bgr[2] << 16)),
                 static_cast<float>(1 / haze.distance_m)};
-  const int width = camera.size.width;
-  const int bands = (camera.size.height + kBandRows - 1) / kBandRows;
-  vo::parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band) {
-    const int top = static_cast<int>(band) * kBandRows;
-    const int bottom = std::min(top + kBandRows, camera.size.height);
-    bgr.rowRange(top, bottom).setTo(cv::Scalar::all(0));
-    std::vector<float> depth(static_cast<std::size_t>(width) * kBandRows, 0.0F);  // 1/z, 0 at infinity
-    for (const Facet& facet : facets) {
-      for (int row = std::max(top, facet.top); row < std::min(bottom, facet.bottom); ++row) {
-        const auto [first, last] = row_span(facet, static_cast<float>(row) + 0.5F, width);
-        draw_span(facet, row, first, last, air, depth.data() + static_cast<std::ptrdiff_t>(row - top) * width,
-                  bgr.ptr(row));
-      }
-    }
-  });
+  const auto width = static_cast<std::size_t>(camera.size.width);
+  vo::parallel_for(
+      static_cast<std::size_t>((camera.size.height + kBandRows - 1) / kBandRows), [&](std::size_t band) {
+        Row row{0, std::vector<float>(width), std::vector<std::int32_t>(width)};
+        const int top = static_cast<int>(band) * kBandRows;
+        for (row.index = top; row.index < std::min(top + kBandRows, camera.size.height); ++row.index) {
+          std::ranges::fill(row.depth, 0.0F);
+          std::ranges::fill(row.front, kNothing);
+          for (std::size_t i = 0; i < facets.size(); ++i) {
+            const Facet& facet = facets[i];
+            if (row.index < facet.top || row.index >= facet.bottom) continue;
+            const auto [first, last] =
+                row_span(facet, static_cast<float>(row.index) + 0.5F, camera.size.width);
+            const auto resolve = facet.texture->opaque() ? resolve_opaque : resolve_cut_out;
+            resolve(facet, static_cast<std::int32_t>(i), first, last, row);
+          }
+          shade_row(facets, row, air, bgr.ptr(row.index));
+        }
+      });
 }
 
 }  // namespace simulate

@@ -68,7 +68,8 @@ void add_sky(std::uint64_t seed, Condition condition, WorldBuilder& builder) {
   const Shade shade = shade_of(condition);
   const auto seed32 = static_cast<std::uint32_t>(seed * 0x85ebca6bU + 17);
   const bool night = condition == Condition::kNight;
-  const auto corner = [](int panel) -> Eigen::Vector2d {  // clockwise from south, so that the seam lies behind the walker
+  const auto corner =
+      [](int panel) -> Eigen::Vector2d {  // clockwise from south, so that the seam lies behind the walker
     const double angle = 2 * std::numbers::pi * panel / kPanels + std::numbers::pi;
     return Eigen::Vector2d(std::sin(angle), std::cos(angle)) * kRadius_m;
   };

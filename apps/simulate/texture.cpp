@@ -33,9 +33,4 @@ Texture::Texture(const cv::Mat& bgra) {
   }
 }
 
-Texture::Level Texture::level(int index) const {
-  const Layout& layout = layouts_.at(static_cast<std::size_t>(index));
-  return {texels_.data() + layout.offset, layout.width, layout.height};
-}
-
 }  // namespace simulate

@@ -24,7 +24,11 @@ class Texture {
   explicit Texture(const cv::Mat& bgra);
 
   [[nodiscard]] int level_count() const { return static_cast<int>(layouts_.size()); }
-  [[nodiscard]] Level level(int index) const;
+  /// Level 0 is the image itself; `index` must be below `level_count()`.
+  [[nodiscard]] Level level(int index) const {
+    const Layout& layout = layouts_[static_cast<std::size_t>(index)];
+    return {texels_.data() + layout.offset, layout.width, layout.height};
+  }
   [[nodiscard]] bool opaque() const { return opaque_; }
 
  private:

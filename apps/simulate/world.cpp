@@ -54,7 +54,9 @@ void WorldBuilder::add_backdrop(const Eigen::Vector3d& corner, const Eigen::Vect
 }
 
 World WorldBuilder::finish(Scene scene, Condition condition) const {
-  World world{{}, {}, Lighting(scene, condition, lamps_)};
+  // By day the street's lamps are off.
+  const bool lamps_on = scene == Scene::kCorridor || condition == Condition::kNight;
+  World world{{}, {}, Lighting(scene, condition, lamps_on ? lamps_ : std::vector<Lamp>{})};
   const auto paint_all = [&](const std::vector<Plan>& plans, bool lit, std::vector<Surface>& surfaces) {
     surfaces.resize(plans.size());
     vo::parallel_for(plans.size(), [&](std::size_t i) {
