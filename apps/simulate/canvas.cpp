@@ -111,10 +111,9 @@ void Canvas::clutter(const cv::Rect2d& area_m, int shapes, vo::Rng& rng) {
 void Canvas::stain(const cv::Rect2d& area_m, cv::Size2d feature_m, double strength, std::uint32_t seed) {
   const cv::Rect area = texels(area_m);
   if (area.empty()) return;
-  const cv::Mat1f noise = fractal_image(area.size(),
-                                        {static_cast<float>(std::max(1.0, feature_m.width * scale_x_)),
-                                         static_cast<float>(std::max(1.0, feature_m.height * scale_y_))},
-                                        seed);
+  const cv::Mat1f noise = fractal_image(
+      area.size(), {std::max(1.0, feature_m.width * scale_x_), std::max(1.0, feature_m.height * scale_y_)},
+      seed);
   for (int y = 0; y < area.height; ++y) {
     for (int x = 0; x < area.width; ++x) {
       cv::Vec3b& pixel = painting_.colour(area.y + y, area.x + x);

@@ -138,10 +138,10 @@ void add_side_corridor(const Leg& leg, const SideStreet& side, vo::Rng& rng, Wor
     for (const bool on_left : {true, false}) {
       const Eigen::Vector2d nearer = at(on_left ? l : r, depth), further = at(on_left ? l : r, depth + 6);
       builder.add_wall(on_left ? nearer : further, on_left ? further : nearer, 0, kHeight_m,
-                       kTexels_per_m / 2, wall_painter(6, draw_style(rng), rng.bits()));
+                       kTexels_per_m / 3, wall_painter(6, draw_style(rng), rng.bits()));
     }
   }
-  builder.add_wall(at(l, kSideStreetDepth_m), at(r, kSideStreetDepth_m), 0, kHeight_m, kTexels_per_m / 2,
+  builder.add_wall(at(l, kSideStreetDepth_m), at(r, kSideStreetDepth_m), 0, kHeight_m, kTexels_per_m / 3,
                    wall_painter(side.width_m, draw_style(rng), rng.bits()));
 }
 
@@ -169,7 +169,7 @@ void build_corridor(const Route& route, std::uint64_t seed, WorldBuilder& builde
     for (double at = rng.uniform(0, 2); at < leg.length_m; at += 5) {
       const Eigen::Vector2d p = leg.at(at, 0);
       builder.add_lamp(
-          {{p.x(), p.y(), kHeight_m - 0.1}, cv::Vec3f(0.10F, 0.12F, 0.13F) * rng.uniform(0.3, 1.7)});
+          {{p.x(), p.y(), kHeight_m - 0.1}, cv::Vec3f(0.055F, 0.065F, 0.07F) * rng.uniform(0.3, 1.7)});
     }
   }
   // The walls at both ends.

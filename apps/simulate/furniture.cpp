@@ -136,7 +136,7 @@ void add_tree(const vo::Pose2& pose, double crown_radius_m, double trunk_m, std:
 void add_car(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& builder) {
   vo::Rng rng(seed);
   const Colour body =
-      hsv(rng.uniform(0, 360), rng.index(2) == 0 ? rng.uniform(0, 0.15) : rng.uniform(0.4, 0.85),
+      hsv(rng.uniform(0, 360), rng.index(2) == 0 ? rng.uniform(0, 0.15) : rng.uniform(0.3, 0.65),
           rng.uniform(0.2, 0.9));
   const bool van = rng.index(6) == 0;
   const double length = rng.uniform(3.7, 4.7), width = rng.uniform(1.65, 1.8), waist = rng.uniform(0.8, 0.95);

@@ -28,7 +28,8 @@ struct Place {
 };
 
 using Lines = std::vector<Line>;
-using GroundColour = std::function<cv::Vec3f(const Eigen::Vector2d&, const Place&)>;
+// The colour at a point, given its place and how worn it is, around 1.
+using GroundColour = std::function<cv::Vec3f(const Eigen::Vector2d&, const Place&, float wear)>;
 
 Lines route_lines(const Route& route, bool with_side_streets) {
   Lines lines;
@@ -65,6 +66,9 @@ Place locate(const Eigen::Vector2d& point, const Lines& lines) {
 struct Sheet {
   double cell_m, height_m, reach_m;
   bool facing_up;
+  double wear_m;  // the size of the largest stains
+  float wear;     // how strong they are
+  std::uint32_t seed;
   std::function<double(double)> texels_per_m;  // by distance from the line
 };
 
@@ -96,11 +100,14 @@ void add_sheet(const Sheet& sheet, const Lines& lines, const GroundColour& colou
     const auto paint = [=](cv::Size texels) {
       Painting painting;
       painting.colour.create(texels);
+      const double scale = texels.width / cell;
+      const cv::Mat1f wear = fractal_image(texels, {sheet.wear_m * scale, sheet.wear_m * scale}, sheet.seed,
+                                           {west_north.x() * scale, -west_north.y() * scale});
       for (int y = 0; y < texels.height; ++y) {
         for (int x = 0; x < texels.width; ++x) {
           const Eigen::Vector2d point = west_north + Eigen::Vector2d((x + 0.5) / texels.width * cell,
                                                                      -(y + 0.5) / texels.height * cell);
-          const cv::Vec3f bgr = colour(point, locate(point, nearby));
+          const cv::Vec3f bgr = colour(point, locate(point, nearby), 1 + sheet.wear * wear(y, x));
           for (int c = 0; c < 3; ++c) painting.colour(y, x)[c] = cv::saturate_cast<std::uint8_t>(bgr[c]);
         }
       }
@@ -142,9 +149,9 @@ cv::Vec3f tone(std::uint32_t id, std::uint32_t seed, std::uint32_t salt) {
   return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
 }
 
-cv::Vec3f street_colour(const Eigen::Vector2d& p, const Place& place, int near_side, std::uint32_t seed) {
+cv::Vec3f street_colour(const Eigen::Vector2d& p, const Place& place, float wear, int near_side,
+                        std::uint32_t seed) {
   const double b = place.right_m * near_side;
-  const float wear = 1 + 0.35F * grain(p, 3.0, 7, seed);
   const auto u = [&](std::int32_t k) {
     return lattice_uniform(static_cast<std::int32_t>(place.line), k, seed);
   };
@@ -172,18 +179,17 @@ cv::Vec3f street_colour(const Eigen::Vector2d& p, const Place& place, int near_s
     if (std::abs(b + 5.6) < 0.07 && std::fmod(place.along_m, 6.0) < 3.0)
       return cv::Vec3f(205, 208, 210) * wear;
     const float mended = grain(p, 5.0, 2, seed + 5) > 0.25F ? 0.72F : 1.0F;
-    const float crack = std::abs(grain(p, 2.0, 4, seed + 6)) < 0.012F ? 0.55F : 1.0F;
+    const float crack = std::abs(grain(p, 2.0, 3, seed + 6)) < 0.012F ? 0.55F : 1.0F;
     return cv::Vec3f(98, 95, 93) * (wear * mended * crack);
   }
   if (b > -11.9) return tone(place.line, seed, 2) * (wear * paving(place.along_m, b, 0.6, 0.6, 0.03, seed));
-  return cv::Vec3f(60, 105, 98) * (1 + 0.8F * grain(p, 1.5, 5, seed + 9));
+  return cv::Vec3f(60, 105, 98) * (2 * wear - 1);  // grass: twice the stains
 }
 
-cv::Vec3f floor_colour(const Eigen::Vector2d& p, const Place& place, std::uint32_t seed) {
+cv::Vec3f floor_colour(const Eigen::Vector2d& p, const Place& place, float wear, std::uint32_t seed) {
   const auto u = [&](std::int32_t k) {
     return lattice_uniform(static_cast<std::int32_t>(place.line), k, seed);
   };
-  const float wear = 1 + 0.10F * grain(p, 1.5, 4, seed);
   cv::Vec3f c = tone(place.line, seed, 3) * (0.85F + 0.4F * u(1));
   if (u(2) < 0.4F) {  // tiles
     c *= paving(place.along_m, place.right_m, 0.6, 0.6, 0.012, seed + place.line);
@@ -213,12 +219,18 @@ void add_street_ground(const Route& route, std::uint64_t seed, Condition conditi
   const auto texels = [](double distance_m) {
     return distance_m < 2.5 ? 48.0 : distance_m < 9 ? 24.0 : 12.0;
   };
-  add_sheet(
-      {4, 0, 16, true, texels}, route_lines(route, true),
-      [=](const Eigen::Vector2d& p, const Place& place) {
-        return street_colour(p, place, near_side, seed32) * wet;
-      },
-      builder);
+  const Sheet sheet{.cell_m = 4,
+                    .height_m = 0,
+                    .reach_m = 16,
+                    .facing_up = true,
+                    .wear_m = 3,
+                    .wear = 0.5F,
+                    .seed = seed32,
+                    .texels_per_m = texels};
+  const auto colour = [=](const Eigen::Vector2d& p, const Place& place, float wear) {
+    return street_colour(p, place, wear, near_side, seed32) * wet;
+  };
+  add_sheet(sheet, route_lines(route, true), colour, builder);
   // Waste ground to the horizon, a little lower so that the street hides it.
   const Eigen::Vector2d middle = (route.corners.front() + route.corners.back()) / 2;
   const double half_m = (route.corners.back() - route.corners.front()).norm() / 2 + 300;
@@ -234,12 +246,26 @@ void add_corridor_floor(const Route& route, std::uint64_t seed, double half_widt
                         WorldBuilder& builder) {
   const auto seed32 = static_cast<std::uint32_t>(seed ^ (seed >> 32U)) * 2654435761U;
   const Lines lines = route_lines(route, true);
-  add_sheet(
-      {4, 0, half_width_m, true, [](double) { return 64.0; }}, lines,
-      [=](const Eigen::Vector2d& p, const Place& place) { return floor_colour(p, place, seed32); }, builder);
-  add_sheet(
-      {4, height_m, half_width_m, false, [](double) { return 32.0; }}, lines,
-      [=](const Eigen::Vector2d&, const Place& place) { return ceiling_colour(place, seed32); }, builder);
+  Sheet sheet{.cell_m = 4,
+              .height_m = 0,
+              .reach_m = half_width_m,
+              .facing_up = true,
+              .wear_m = 1.5,
+              .wear = 0.15F,
+              .seed = seed32,
+              .texels_per_m = [](double) { return 64.0; }};
+  const auto floor = [=](const Eigen::Vector2d& p, const Place& place, float wear) {
+    return floor_colour(p, place, wear, seed32);
+  };
+  add_sheet(sheet, lines, floor, builder);
+  sheet.height_m = height_m;
+  sheet.facing_up = false;
+  sheet.texels_per_m = [](double) { return 32.0; };
+  sheet.wear = 0.05F;
+  const auto ceiling = [=](const Eigen::Vector2d&, const Place& place, float wear) {
+    return ceiling_colour(place, seed32) * wear;
+  };
+  add_sheet(sheet, lines, ceiling, builder);
 }
 
 }  // namespace simulate

@@ -11,8 +11,8 @@ namespace {
 
 const Eigen::Vector3d kToSun = Eigen::Vector3d(-0.5, 0.45, 0.74).normalized();
 constexpr double kLightGrid_m = 0.5;
-constexpr double kLampReach_m = 25;  // beyond it a lamp adds less than one grey level
-constexpr double kLampHeight_m = 4;  // a lamp's brightness is given at this distance
+constexpr double kLampReach_m = 25;       // beyond it a lamp adds less than one grey level
+constexpr double kLampReference_m2 = 20;  // a lamp's brightness is given at 4 m
 
 cv::Mat4b with_glow_and_alpha(const cv::Mat& lit, const Painting& painting, bool glowing) {
   cv::Mat bgr = lit;
@@ -62,7 +62,8 @@ cv::Vec3f Lighting::at(const Eigen::Vector3d& point, const Eigen::Vector3d& norm
     const double distance = to_lamp.norm();
     if (distance > kLampReach_m) continue;
     const double facing = all_round ? 0.6 : std::max(0.0, normal.dot(to_lamp) / distance);
-    light += lamp.bgr * (facing * kLampHeight_m * kLampHeight_m / (1 + distance * distance));
+    // A lamp is no point: the 4 m2 keep what is right beside it from burning out.
+    light += lamp.bgr * (facing * kLampReference_m2 / (4 + distance * distance));
   }
   return light;
 }

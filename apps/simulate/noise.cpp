@@ -57,28 +57,33 @@ float fractal_noise(float x, float y, int octaves, std::uint32_t seed, float gai
   return sum / total;
 }
 
-cv::Mat1f fractal_image(cv::Size size, cv::Size2f feature_px, std::uint32_t seed, float gain) {
+cv::Mat1f fractal_image(cv::Size size, cv::Size2d feature_px, std::uint32_t seed, cv::Point2d origin_px) {
+  constexpr float kGain = 0.7F;
   cv::Mat1f sum = cv::Mat1f::zeros(size);
   float weight = 1, total = 0;
-  cv::Size2f feature = feature_px;
-  for (std::uint32_t octave = 0;; ++octave) {
-    // One lattice value per feature, blown up; two more so that the interpolation never sees the lattice's
+  cv::Size2d feature = feature_px;
+  for (std::uint32_t octave = 0;; ++octave, weight *= kGain) {
+    // One lattice value per feature, blown up; two more so that the interpolation never meets the lattice's
     // edge.
-    const cv::Size lattice_size(static_cast<int>(static_cast<float>(size.width) / feature.width) + 3,
-                                static_cast<int>(static_cast<float>(size.height) / feature.height) + 3);
-    cv::Mat1f lattice(lattice_size);
+    const double left = origin_px.x / feature.width, top = origin_px.y / feature.height;
+    const auto first_x = static_cast<std::int32_t>(std::floor(left));
+    const auto first_y = static_cast<std::int32_t>(std::floor(top));
+    cv::Mat1f lattice(static_cast<int>(size.height / feature.height) + 3,
+                      static_cast<int>(size.width / feature.width) + 3);
     for (int y = 0; y < lattice.rows; ++y) {
-      for (int x = 0; x < lattice.cols; ++x)
-        lattice(y, x) = 2 * lattice_uniform(x, y, seed + octave * 0x632be5abU) - 1;
+      for (int x = 0; x < lattice.cols; ++x) {
+        lattice(y, x) = 2 * lattice_uniform(first_x + x, first_y + y, seed + octave * 0x632be5abU) - 1;
+      }
     }
-    const cv::Matx23d lattice_from_image(1 / feature.width, 0, 0.5, 0, 1 / feature.height, 0.5);
+    const cv::Matx23d lattice_from_image(1 / feature.width, 0, left - first_x, 0, 1 / feature.height,
+                                         top - first_y);
     cv::Mat layer;
-    cv::warpAffine(lattice, layer, lattice_from_image, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+    cv::warpAffine(lattice, layer, lattice_from_image, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                   cv::BORDER_REPLICATE);
     cv::scaleAdd(layer, weight, sum, sum);
     total += weight;
     if (std::max(feature.width, feature.height) <= 1) break;
-    weight *= gain;
-    feature = {std::max(1.0F, feature.width / 2), std::max(1.0F, feature.height / 2)};
+    feature = {std::max(1.0, feature.width / 2), std::max(1.0, feature.height / 2)};
   }
   return sum / total;
 }

@@ -20,6 +20,8 @@ float value_noise(float x, float y, std::uint32_t seed);
 float fractal_noise(float x, float y, int octaves, std::uint32_t seed, float gain = 0.6F);
 
 /// An image of fractal noise in [-1, 1] whose largest features measure `feature_px`, down to single pixels.
-cv::Mat1f fractal_image(cv::Size size, cv::Size2f feature_px, std::uint32_t seed, float gain = 0.7F);
+/// It shows the part from `origin_px` on of a plane without end: images of neighbouring parts meet without a
+/// seam.
+cv::Mat1f fractal_image(cv::Size size, cv::Size2d feature_px, std::uint32_t seed, cv::Point2d origin_px = {});
 
 }  // namespace simulate

@@ -73,7 +73,8 @@ bool project_outline(const std::array<Eigen::Vector3d, 4>& quad, const Camera& c
 
 void add_facet(const Surface& surface, const Eigen::Isometry3d& camera_from_world, const Camera& camera,
                bool backdrop, std::vector<Facet>& facets) {
-  const Eigen::Matrix3d rotation = camera_from_world.linear();
+  // Put a million times further away, a backdrop looks the same and lies behind everything else.
+  const Eigen::Matrix3d rotation = camera_from_world.linear() * (backdrop ? 1e6 : 1.0);
   const Eigen::Vector3d o =
       backdrop ? Eigen::Vector3d(rotation * surface.corner) : camera_from_world * surface.corner;
   const Eigen::Vector3d e1 = rotation * surface.across;
@@ -115,14 +116,15 @@ std::pair<int, int> row_span(const Facet& facet, float y, int width) {
   return {static_cast<int>(std::ceil(left - 0.5F)), static_cast<int>(std::ceil(right - 0.5F))};
 }
 
-TextureFilter filter_at(const Facet& facet, float x, float y) {
+TextureFilter filter_at(const Facet& facet, float x, float y, int max_taps) {
   const float z = 1.0F / facet.inverse_z.at(x, y);
   const float u = facet.u_over_z.at(x, y) * z;
   const float v = facet.v_over_z.at(x, y) * z;
   return TextureFilter(
       *facet.texture,
       {(facet.u_over_z.dx - u * facet.inverse_z.dx) * z, (facet.v_over_z.dx - v * facet.inverse_z.dx) * z,
-       (facet.u_over_z.dy - u * facet.inverse_z.dy) * z, (facet.v_over_z.dy - v * facet.inverse_z.dy) * z});
+       (facet.u_over_z.dy - u * facet.inverse_z.dy) * z, (facet.v_over_z.dy - v * facet.inverse_z.dy) * z},
+      max_taps);
 }
 
 // One row of the image while it is drawn: which facet is in front at each pixel, and its 1/z (0 at infinity).
@@ -158,7 +160,7 @@ void resolve_cut_out(const Facet& facet, std::int32_t id, int first, int last, R
     int column = begin;
     while (column < end && !is_nearer(column)) ++column;
     if (column == end) continue;
-    const TextureFilter filter = filter_at(facet, static_cast<float>(column) + 0.5F, y);
+    const TextureFilter filter = filter_at(facet, static_cast<float>(column) + 0.5F, y, 1);
     for (; column < end; ++column) {
       if (!is_nearer(column)) continue;
       const float x = static_cast<float>(column) + 0.5F;
@@ -173,21 +175,22 @@ void resolve_cut_out(const Facet& facet, std::int32_t id, int first, int last, R
   }
 }
 
-// What a frame's pixels are mixed with.
-struct Air {
+// What holds for all of a frame.
+struct Look {
   Lanes haze;
   float inverse_distance;
+  int max_taps;
 };
 
 // Colours pixels [first, last), which all show one facet. They share a mip level and a haze weight.
-void shade_block(const Facet& facet, int row, int first, int last, const Air& air, std::uint8_t* bgr) {
+void shade_block(const Facet& facet, int row, int first, int last, const Look& look, std::uint8_t* bgr) {
   const float y = static_cast<float>(row) + 0.5F;
   const float middle = 0.5F * static_cast<float>(first + last);
   const float middle_z = 1.0F / facet.inverse_z.at(middle, y);
-  const TextureFilter filter = filter_at(facet, middle, y);
-  const float keep = facet.hazed ? std::exp(-middle_z * air.inverse_distance) : 1.0F;
+  const TextureFilter filter = filter_at(facet, middle, y, look.max_taps);
+  const float keep = facet.hazed ? std::exp(-middle_z * look.inverse_distance) : 1.0F;
   const auto own = static_cast<Lanes>(256.0F * keep * facet.gain);
-  const Lanes veil = air.haze * static_cast<Lanes>(256.0F * (1.0F - keep));
+  const Lanes veil = look.haze * static_cast<Lanes>(256.0F * (1.0F - keep));
   for (int column = first; column < last; ++column) {
     const float x = static_cast<float>(column) + 0.5F;
     const float z = 1.0F / facet.inverse_z.at(x, y);
@@ -196,7 +199,7 @@ void shade_block(const Facet& facet, int row, int first, int last, const Air& ai
   }
 }
 
-void shade_row(const std::vector<Facet>& facets, const Row& row, const Air& air, std::uint8_t* bgr) {
+void shade_row(const std::vector<Facet>& facets, const Row& row, const Look& look, std::uint8_t* bgr) {
   const int width = static_cast<int>(row.front.size());
   for (int begin = 0; begin < width;) {
     const std::int32_t id = row.front[static_cast<std::size_t>(begin)];
@@ -206,7 +209,7 @@ void shade_row(const std::vector<Facet>& facets, const Row& row, const Air& air,
       std::fill(bgr + static_cast<std::ptrdiff_t>(3) * begin, bgr + static_cast<std::ptrdiff_t>(3) * end,
                 std::uint8_t{0});
     } else {
-      shade_block(facets[static_cast<std::size_t>(id)], row.index, begin, end, air, bgr);
+      shade_block(facets[static_cast<std::size_t>(id)], row.index, begin, end, look, bgr);
     }
     begin = end;
   }
@@ -220,7 +223,7 @@ Eigen::Vector2d Camera::project(const Eigen::Vector3d& point) const {
 }
 
 void rasterise(const std::vector<Surface>& surfaces, const std::vector<Surface>& backdrop,
-               const Camera& camera, const Haze& haze, cv::Mat& bgr) {
+               const Camera& camera, const Haze& haze, cv::Mat& bgr, int max_taps) {
   bgr.create(camera.size, CV_8UC3);
   const Eigen::Isometry3d camera_from_world = camera.world_from_camera.inverse();
   std::vector<Facet> facets;
@@ -228,8 +231,8 @@ void rasterise(const std::vector<Surface>& surfaces, const std::vector<Surface>&
   std::ranges::stable_sort(facets, {}, &Facet::nearest_m);
   for (const Surface& surface : backdrop) add_facet(surface, camera_from_world, camera, true, facets);
 
-  const Air air{lanes_of(static_cast<std::uint32_t>(haze.bgr[0] | haze.bgr[1] << 8 | haze.bgr[2] << 16)),
-                static_cast<float>(1 / haze.distance_m)};
+  const Look look{lanes_of(static_cast<std::uint32_t>(haze.bgr[0] | haze.bgr[1] << 8 | haze.bgr[2] << 16)),
+                  static_cast<float>(1 / haze.distance_m), max_taps};
   const auto width = static_cast<std::size_t>(camera.size.width);
   vo::parallel_for(
       static_cast<std::size_t>((camera.size.height + kBandRows - 1) / kBandRows), [&](std::size_t band) {
@@ -246,7 +249,7 @@ void rasterise(const std::vector<Surface>& surfaces, const std::vector<Surface>&
             const auto resolve = facet.texture->opaque() ? resolve_opaque : resolve_cut_out;
             resolve(facet, static_cast<std::int32_t>(i), first, last, row);
           }
-          shade_row(facets, row, air, bgr.ptr(row.index));
+          shade_row(facets, row, look, bgr.ptr(row.index));
         }
       });
 }

@@ -30,6 +30,10 @@ struct Camera {
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& point) const;
 };
 
+/// How finely slanting textures are read: 1 to 3 taps along the longer side of a pixel's footprint. One, a
+/// little blurred, will do for pictures that are averaged.
+inline constexpr int kFineTaps = 3;
+
 /// Exponential haze: what is `distance_m` away keeps 1/e of its own colour.
 struct Haze {
   cv::Vec3b bgr{0, 0, 0};
@@ -40,12 +44,12 @@ struct Haze {
 ///
 /// For a parallelogram seen by a pinhole, 1/z, u/z and v/z are linear in the pixel, so that texture
 /// coordinates are exact in perspective without per-vertex clipping. Bilinear within a mip level, linear
-/// between two levels, up to three samples along the longer side of a pixel's footprint. Depth is tested on
-/// 1/z. `backdrop` is what lies at infinity: its surfaces are relative to the camera's position, unhazed, and
-/// are drawn behind everything else.
+/// between two levels, with up to `max_taps` taps. What is in front at each pixel is settled first, on 1/z,
+/// and only that is textured. `backdrop` is what lies at infinity: its surfaces are relative to the camera's
+/// position, unhazed, and are drawn behind everything else.
 ///
 /// Bands of rows run in parallel; the bytes are the same for any number of threads.
 void rasterise(const std::vector<Surface>& surfaces, const std::vector<Surface>& backdrop,
-               const Camera& camera, const Haze& haze, cv::Mat& bgr);
+               const Camera& camera, const Haze& haze, cv::Mat& bgr, int max_taps = kFineTaps);
 
 }  // namespace simulate

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kMaxHeading = 65 * kDegree;
-constexpr double kBeyond_m = 60;  // so that the end of the walk still looks down a street
 // A walker turns into a side street and round again within a step or so.
 constexpr double kDetourRadius_m = 0.5;
 constexpr double kSplice_m = 2;  // the detour leaves and joins the route this far from the side street
@@ -24,12 +23,13 @@ struct Layout {
   double turn_min_deg, turn_max_deg;
   double corner_radius_m;
   double side_street_width_m;
+  double beyond_m;  // drawn after the end, as far as one may see
 };
 
 // Street blocks of 28 to 50 m, cut at an arc an unhurried walker takes; corridors are shorter and squarer.
 Layout layout_of(Scene scene) {
-  if (scene == Scene::kStreet) return {28, 50, 35, 80, 3.0, 5.0};
-  return {14, 28, 60, 90, 1.2, 2.4};
+  if (scene == Scene::kStreet) return {28, 50, 35, 80, 3.0, 5.0, 50};
+  return {14, 28, 60, 90, 1.2, 2.4, 25};
 }
 
 Eigen::Vector2d forward(double heading_rad) {
@@ -73,7 +73,7 @@ Route make_route(Scene scene, std::uint64_t seed, double length_m) {
   std::vector<SideStreet> side_streets;
   double heading = 0;
   // Rounding a corner cuts at most a fifth of the way near it; a little more is drawn than is needed.
-  for (double drawn_m = 0; drawn_m < 1.1 * length_m + kBeyond_m;) {
+  for (double drawn_m = 0; drawn_m < 1.1 * length_m + layout.beyond_m;) {
     const double leg_m = rng.uniform(layout.leg_min_m, layout.leg_max_m);
     const int side = scene == Scene::kStreet ? near_side : (rng.index(2) == 0 ? 1 : -1);
     side_streets.push_back(

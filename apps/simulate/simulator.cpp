@@ -103,7 +103,8 @@ cv::Mat WalkSimulator::picture_at(double time_s) const {
       people_at(people_, route_.path, time_s, camera.world_from_camera.translation(), world_.lighting);
   surfaces.insert(surfaces.end(), figures.begin(), figures.end());
   cv::Mat picture;
-  rasterise(surfaces, world_.backdrop, camera, world_.lighting.haze(), picture);
+  rasterise(surfaces, world_.backdrop, camera, world_.lighting.haze(), picture,
+            exposure_.samples > 1 ? 1 : kFineTaps);
   return picture;
 }
 

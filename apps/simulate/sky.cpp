@@ -76,7 +76,7 @@ void add_sky(std::uint64_t seed, Condition condition, WorldBuilder& builder) {
   for (int panel = 0; panel < kPanels; ++panel) {
     const Eigen::Vector2d a = corner(panel), b = corner(panel + 1), edge = b - a;
     builder.add_backdrop({a.x(), a.y(), kTop_m}, {edge.x(), edge.y(), 0}, {0, 0, kBottom_m - kTop_m},
-                         {480, 440}, [=](cv::Size texels) {
+                         {360, 330}, [=](cv::Size texels) {
                            Painting painting;
                            painting.colour.create(texels);
                            for (int y = 0; y < texels.height; ++y) {

@@ -22,7 +22,7 @@ TextureFilter::Level TextureFilter::prepare(const Texture::Level& level) {
           16.0F * static_cast<float>(level.height - 1)};
 }
 
-TextureFilter::TextureFilter(const Texture& texture, const Footprint& footprint) {
+TextureFilter::TextureFilter(const Texture& texture, const Footprint& footprint, int max_taps) {
   const Texture::Level base = texture.level(0);
   const auto squared_texels = [&](float u, float v) {
     u *= static_cast<float>(base.width);
@@ -38,7 +38,7 @@ TextureFilter::TextureFilter(const Texture& texture, const Footprint& footprint)
   // on.
   const float ratio = longer / std::min(along_x, along_y);
   if (longer > 1 && ratio > 1.5F * 1.5F) {
-    taps_ = ratio > 2.5F * 2.5F ? 3 : 2;
+    taps_ = std::min(max_taps, ratio > 2.5F * 2.5F ? 3 : 2);
     const float share = 1.0F / static_cast<float>(taps_);
     tap_weight_ = static_cast<Lanes>(256.0F * share);
     tap_du_ = (x_is_longer ? footprint.ux : footprint.uy) * share;

@@ -67,10 +67,11 @@ struct Footprint {
 };
 
 /// How pixels with one footprint read a texture: bilinear in the two mip levels that enclose the footprint's
-/// size, and up to three times along its longer side if it is a long one (a pavement seen at a slant).
+/// size, and up to `max_taps` (1 to 3) times along its longer side if it is a long one (a pavement at a
+/// slant).
 class TextureFilter {
  public:
-  TextureFilter(const Texture& texture, const Footprint& footprint);
+  TextureFilter(const Texture& texture, const Footprint& footprint, int max_taps);
 
   /// The colour at (u, v), clamped to the texture, [0, 1] being all of it.
   [[nodiscard]] Lanes sample(float u, float v) const {
