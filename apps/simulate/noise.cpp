@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace simulate {
 namespace {
@@ -20,6 +19,49 @@ float smooth(float t) {
 
 float mix(float a, float b, float t) {
   return a + (b - a) * t;
+}
+
+// Where samples fall between the values of a lattice: index of the value before, share of the one after.
+struct Between {
+  std::int32_t index;
+  float share;
+};
+
+std::vector<Between> lattice_positions(int count, double origin_px, double feature_px) {
+  std::vector<Between> positions(static_cast<std::size_t>(count));
+  const double first = std::floor(origin_px / feature_px);
+  for (int i = 0; i < count; ++i) {
+    const double at = (origin_px + i) / feature_px - first;
+    const auto index = static_cast<std::int32_t>(at);
+    positions[static_cast<std::size_t>(i)] = {index, static_cast<float>(at - index)};
+  }
+  return positions;
+}
+
+// Adds bilinear noise with features of one size to an image.
+void add_octave(cv::Mat1f& image, cv::Size2d feature, cv::Point2d origin, float weight, std::uint32_t seed) {
+  const std::vector<Between> columns = lattice_positions(image.cols, origin.x, feature.width);
+  const std::vector<Between> rows = lattice_positions(image.rows, origin.y, feature.height);
+  const auto first_x = static_cast<std::int32_t>(std::floor(origin.x / feature.width));
+  const auto first_y = static_cast<std::int32_t>(std::floor(origin.y / feature.height));
+  cv::Mat1f lattice(rows.back().index + 2, columns.back().index + 2);
+  for (int y = 0; y < lattice.rows; ++y) {
+    for (int x = 0; x < lattice.cols; ++x) {
+      lattice(y, x) = weight * (2 * lattice_uniform(first_x + x, first_y + y, seed) - 1);
+    }
+  }
+  std::vector<float> blend(static_cast<std::size_t>(lattice.cols));
+  for (int y = 0; y < image.rows; ++y) {
+    const Between& row = rows[static_cast<std::size_t>(y)];
+    const float* above = lattice[row.index];
+    const float* below = lattice[row.index + 1];
+    for (std::size_t x = 0; x < blend.size(); ++x) blend[x] = mix(above[x], below[x], row.share);
+    float* out = image[y];
+    for (const Between& column : columns) {
+      const float* value = blend.data() + column.index;
+      *out++ += mix(value[0], value[1], column.share);
+    }
+  }
 }
 
 }  // namespace
@@ -62,25 +104,8 @@ cv::Mat1f fractal_image(cv::Size size, cv::Size2d feature_px, std::uint32_t seed
   cv::Mat1f sum = cv::Mat1f::zeros(size);
   float weight = 1, total = 0;
   cv::Size2d feature = feature_px;
-  for (std::uint32_t octave = 0;; ++octave, weight *= kGain) {
-    // One lattice value per feature, blown up; two more so that the interpolation never meets the lattice's
-    // edge.
-    const double left = origin_px.x / feature.width, top = origin_px.y / feature.height;
-    const auto first_x = static_cast<std::int32_t>(std::floor(left));
-    const auto first_y = static_cast<std::int32_t>(std::floor(top));
-    cv::Mat1f lattice(static_cast<int>(size.height / feature.height) + 3,
-                      static_cast<int>(size.width / feature.width) + 3);
-    for (int y = 0; y < lattice.rows; ++y) {
-      for (int x = 0; x < lattice.cols; ++x) {
-        lattice(y, x) = 2 * lattice_uniform(first_x + x, first_y + y, seed + octave * 0x632be5abU) - 1;
-      }
-    }
-    const cv::Matx23d lattice_from_image(1 / feature.width, 0, left - first_x, 0, 1 / feature.height,
-                                         top - first_y);
-    cv::Mat layer;
-    cv::warpAffine(lattice, layer, lattice_from_image, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
-                   cv::BORDER_REPLICATE);
-    cv::scaleAdd(layer, weight, sum, sum);
+  for (;; weight *= kGain, seed += 0x632be5abU) {
+    add_octave(sum, feature, origin_px, weight, seed);
     total += weight;
     if (std::max(feature.width, feature.height) <= 1) break;
     feature = {std::max(1.0, feature.width / 2), std::max(1.0, feature.height / 2)};

@@ -52,5 +52,12 @@ TEST(Noise, ImagesHaveTextureAtEveryScale) {
   EXPECT_EQ(fractal_image({1, 1}, {1, 1}, 3).size(), cv::Size(1, 1));
 }
 
+TEST(Noise, ImagesOfNeighbouringPartsMeet) {
+  const cv::Mat1f whole = fractal_image({60, 40}, {13, 9}, 3, {-30, 7});
+  const cv::Mat1f part = fractal_image({20, 10}, {13, 9}, 3, {-10, 19});
+  // The same arithmetic but for the rounding of positions.
+  EXPECT_LT(cv::norm(whole(cv::Rect(20, 12, 20, 10)), part, cv::NORM_INF), 1e-5);
+}
+
 }  // namespace
 }  // namespace simulate
