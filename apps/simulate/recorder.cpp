@@ -1,0 +1,112 @@
+#include "recorder.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <opencv2/videoio.hpp>
+
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+
+namespace simulate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBatch = 16;  // frames drawn at a time, while the batch before is encoded
+
+// A file that appears under its name when it is whole, or not at all.
+class PendingFile {
+ public:
+  PendingFile(fs::path path, bool overwrite)
+      : path_(std::move(path)),
+        temporary_(path_.parent_path() / (".unfinished-" + path_.filename().string())) {
+    if (fs::exists(path_) && !overwrite) {
+      throw vo::Error(path_.string(), "exists already", "a new folder, or --force to overwrite");
+    }
+  }
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+  ~PendingFile() {
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+  }
+
+  [[nodiscard]] std::string temporary() const { return temporary_.string(); }
+  void commit() const {
+    std::error_code failure;
+    fs::rename(temporary_, path_, failure);
+    if (failure) throw vo::Error(path_.string(), "cannot be written: " + failure.message());
+  }
+  [[nodiscard]] vo::Error failure() const {
+    return {path_.string(), "cannot be written", "a folder with room for it"};
+  }
+
+ private:
+  fs::path path_, temporary_;
+};
+
+void write_truth(const WalkSimulator& walk, int frames, const PendingFile& file) {
+  std::ofstream out(file.temporary());
+  out << "frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n";
+  for (int i = 0; i < frames; ++i) {
+    const TruthRow row = walk.truth(i);
+    out << fmt::format("{},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", row.frame, row.time_s, row.x_m, row.y_m,
+                       row.heading_deg, row.distance_m, row.steps);
+  }
+  out.close();
+  if (!out) throw file.failure();
+}
+
+}  // namespace
+
+Recording simulate_walk(const Options& options, const fs::path& directory, bool overwrite,
+                        const vo::ProgressCallback& progress) {
+  validate(options);
+  std::error_code failure;
+  fs::create_directories(directory, failure);
+  if (failure)
+    throw vo::Error(directory.string(), "cannot be made: " + failure.message(), "a folder one may write to");
+  const PendingFile video(directory / "walk.mp4", overwrite);
+  const PendingFile truth(directory / "truth.csv", overwrite);
+
+  const WalkSimulator walk(options);
+  cv::VideoWriter writer(video.temporary(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
+                         options.frame_rate_hz, options.size);
+  if (!writer.isOpened()) throw video.failure();
+
+  const int total = walk.frame_count();
+  Recording recording;
+  std::vector<cv::Mat> drawn, encoded;
+  const auto encode = [&] {
+    for (const cv::Mat& frame : encoded) writer.write(frame);
+    recording.frames += static_cast<int>(encoded.size());
+  };
+  bool going_on = true;
+  for (int begin = 0; begin < total && going_on; begin += kBatch) {
+    drawn.assign(static_cast<std::size_t>(std::min(kBatch, total - begin)), {});
+    vo::parallel_for(drawn.size() + 1, [&](std::size_t i) {
+      if (i == 0) {
+        encode();
+      } else {
+        drawn[i - 1] = walk.render(begin + static_cast<int>(i) - 1);
+      }
+    });
+    encoded.swap(drawn);
+    if (progress) going_on = progress({"drawing the walk", begin, total});
+  }
+  encode();
+  writer.release();
+  if (progress && going_on) progress({"drawing the walk", total, total});
+
+  write_truth(walk, recording.frames, truth);
+  video.commit();
+  truth.commit();
+  recording.last = walk.truth(recording.frames - 1);
+  return recording;
+}
+
+}  // namespace simulate
