@@ -109,6 +109,7 @@ void build(const CLI::App& app, BuildOptions& options) {
   // A route's unit comes from its first traverse; the walk that replaces it is tied to what it was.
   const place::Traverse* reference = route.traverses.empty() ? nullptr : &route.traverses.front();
   const place::SampledWalk sampled = place::sample_walk(walk, route, reference, settings.sampling);
+  for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
   if (sampled.frames.size() < 2) {
     throw vo::Error(options.walk, "gives a single keyframe",
                     "a longer walk, or a smaller --sampling-n or --every");

@@ -71,10 +71,11 @@ std::vector<std::string> arguments_from_config(const std::string& file, const CL
           file, fmt::format("has an unknown key '{}'", key),
           nearest.empty() ? "one of those in configs/default.toml" : fmt::format("'{}'?", nearest));
     }
-    if (!seen.insert(key).second)
-      throw vo::Error(file, fmt::format("has the key '{}' twice", key), "it once");
-    if (item.inputs.size() != 1)
-      throw vo::Error(file, fmt::format("key '{}' has no single value", key), "one value");
+    // CLI11 puts the values of a repeated key together.
+    if (!seen.insert(key).second || item.inputs.size() > 1) {
+      throw vo::Error(file, fmt::format("has the key '{}' twice, or several values for it", key), "one value, once");
+    }
+    if (item.inputs.empty()) throw vo::Error(file, fmt::format("has no value for the key '{}'", key), "one value");
 
     // Tried on an app of its own, so that the message names the file and the key.
     Settings scratch;

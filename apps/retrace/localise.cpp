@@ -165,6 +165,7 @@ void localise(const CLI::App& app, LocaliseOptions& options) {
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   const place::SampledWalk sampled =
       place::sample_walk(walk, route, &route.traverses.front(), settings.sampling);
+  for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
   const place::Localisation found = place::localise(route, walk, sampled, settings.localiser);
 
   std::vector<std::vector<std::uint8_t>> pictures;

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 
 #include <place/version.hpp>
 #include <vo/base/error.hpp>
@@ -98,6 +100,8 @@ int main(int argc, char** argv) {
   // FFmpeg and OpenCV print to stderr on their own; what matters of it reaches the user through our messages.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  spdlog::set_default_logger(spdlog::stderr_logger_st("retrace"));
+  spdlog::set_pattern("retrace: %l: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then is a failed write with its reason, not a kill
   try {
     return run(argc, argv);

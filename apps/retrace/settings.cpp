@@ -110,7 +110,8 @@ void add_sampling_options(CLI::App& app, Settings& s) {
       "seconds, window over which the error is smoothed for that [SSS Fig. 10]")
       ->check(CLI::NonNegativeNumber);
   add(app, kSampling, "--tie-scale", s.sampling.tie_scale,
-      "true: bring each walk to the keyframe spacing of the route's first traverse");
+      "true: bring each walk to the keyframe spacing of the route's first traverse")
+      ->default_str(s.sampling.tie_scale ? "true" : "false");
 }
 
 void add_search_options(CLI::App& app, Settings& s) {
@@ -210,7 +211,8 @@ void resolve(const CLI::App& app, Settings& settings) {
   } else if (std::string reason; !search.is_valid(&reason)) {
     throw vo::Error("search settings", reason);
   }
-  if (settings.sampling.sampling.motion == place::MotionSource::kSad && given(app, "--every")) {
+  if (settings.sampling.sampling.motion == place::MotionSource::kSad &&
+      settings.sampling.sampling.every != 1) {
     throw vo::Error("--every", "has no meaning with --motion sad", "--motion none --every K");
   }
 }

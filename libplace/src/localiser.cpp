@@ -78,6 +78,16 @@ std::vector<Candidate> search_the_original_way(const vo::ImageStack& query, cons
   return candidates;
 }
 
+/// What tells that a walk's frames are too far apart for its motion to be learned well.
+std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionModel& model) {
+  constexpr double kFewSeparations = 5;
+  if (model.separation.back() >= kFewSeparations) return {};
+  return {fmt::format(
+      "{}: frames more than {:.0f} apart have nothing in common, so motion is told poorly; a higher frame "
+      "rate, or --motion none, may do better",
+      walk.source, model.separation.back())};
+}
+
 Place place_of(const Traverse& traverse, std::size_t keyframe) {
   const Keyframe& k = traverse.keyframes[keyframe];
   return {.traverse = traverse.name,
@@ -104,6 +114,7 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
   vo::VisualMotion motion = vo::visual_motion(walk, motion_options);
   sampled.displacement = std::move(motion.displacement);
   sampled.motion_model = std::move(motion.model);
+  sampled.warnings = motion_warnings(walk, sampled.motion_model);
   sampled.unit =
       sampling.unit > 0 ? sampling.unit : sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
   sampled.frames = resample(sampled.displacement, sampled.unit);

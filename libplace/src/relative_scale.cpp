@@ -27,18 +27,17 @@ double relative_scale(const vo::ImageStack& query, const vo::ImageStack& referen
   if (!(options.largest > 1) || options.steps < 3 || options.length < 2) {
     throw std::invalid_argument("relative_scale: largest > 1, steps >= 3 and length >= 2 expected");
   }
-  if (query.size() < 2 || reference.size() < 2) return 1;
+  if (std::min(query.size(), reference.size()) < 2 * static_cast<std::size_t>(options.length)) return 1;
 
   CostMatrix enhanced = cost_matrix(query, reference);
   enhance_contrast(enhanced, {.method = Enhancement::kStandardise});
-  const int length = std::min(options.length, static_cast<int>(query.size()));
   const double step = 2 * std::log(options.largest) / (options.steps - 1);
   const auto log_scale = [&](std::ptrdiff_t i) {
     return -std::log(options.largest) + static_cast<double>(i) * step;
   };
   std::vector<double> cost;
   for (int i = 0; i < options.steps; ++i)
-    cost.push_back(mean_best_cost(enhanced, std::exp(log_scale(i)), length));
+    cost.push_back(mean_best_cost(enhanced, std::exp(log_scale(i)), options.length));
 
   // Slopes that round to the same line cost the same: the middle of the cheapest stretch.
   const auto first = std::ranges::min_element(cost);

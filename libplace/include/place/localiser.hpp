@@ -35,6 +35,7 @@ struct SampledWalk {
   vo::MotionModel motion_model;  ///< learned on the walk; nothing in it without motion
   double scale = 1;              ///< the displacement was multiplied by this to fit the route's
   double unit = 0;               ///< displacement between keyframes (SSS Eq. 4); 0 without motion
+  std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
 };
 
 /// Samples a walk (SSS 3.3). With motion, the unit comes from `options.sampling.unit`, or where that is 0

@@ -9,7 +9,7 @@ struct RelativeScaleOptions {
   double largest =
       4;  ///< scales 1 / largest .. largest are tried; a walk is seldom four times as fast as another
   int steps = 97;   ///< scales tried, evenly spaced in their logarithm
-  int length = 10;  ///< keyframes on a line, fewer if the query is shorter
+  int length = 10;  ///< keyframes on a line
 };
 
 /// How far one query keyframe step reaches, in reference keyframe steps, found by matching alone.
@@ -19,8 +19,9 @@ struct RelativeScaleOptions {
 /// through the cost matrix is straight but not at 45 degrees. Lines of a single slope are searched through
 /// the whole standardised matrix; the right slope is the one whose best lines are cheapest on average.
 ///
-/// `query`, `reference`: descriptors of keyframes, of one size. Returns 1 if either has fewer than 2
-/// keyframes. O(queries * references * (pixels + steps * length)), in parallel over queries.
+/// `query`, `reference`: descriptors of keyframes, of one size. Returns 1 if either has fewer than
+/// 2 * length keyframes: too few to tell. O(queries * references * (pixels + steps * length)), in parallel
+/// over queries.
 double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
                       const RelativeScaleOptions& options = {});
 

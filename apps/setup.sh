@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Installs what is missing of the Debian packages that retrace needs. Sourced by quickstart.sh and tests/run.sh.
+#   setup.sh [--tests]     with --tests also what only the tests and benches need
+set -euo pipefail
+
+packages=(cmake g++ ninja-build libopencv-dev libeigen3-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
+  libspdlog-dev libfmt-dev)
+if [[ "${1:-}" == --tests ]]; then
+  packages+=(libgtest-dev libgmock-dev libbenchmark-dev clang-format python3 ffmpeg sqlite3)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+if ((${#missing[@]} > 0)); then
+  echo "installing: ${missing[*]}"
+  as_root=()
+  [[ $EUID -eq 0 ]] || as_root=(sudo)
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi

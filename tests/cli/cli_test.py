@@ -1,0 +1,354 @@
+#!/usr/bin/env python3
+"""The program as a user calls it: the road from walks to metrics, what it refuses, and what it leaves behind."""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from support.retrace_cli import RETRACE, SOURCE, check, draw_walk, read_json, rows, run, street, video, write_truth  # noqa: E402
+
+MATCH_COLUMNS = ["query_frame", "query_time_s", "traverse", "reference_frame", "reference_time_s",
+                 "reference_distance_m", "score", "accepted"]
+
+
+def positions(speeds):
+    """Where the walker is at each frame, from the speed at each, in pixels a frame."""
+    where, all_of_them = 0.0, []
+    for speed in speeds:
+        all_of_them.append(where)
+        where += speed
+    return all_of_them
+
+
+class Fixture:
+    """Two walks along one wall, the second twice as fast where the first is slow; made once."""
+
+    def __init__(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="retrace-cli-"))
+        wall = street()
+        self.reference_at = positions([1] * 300 + [2] * 300)
+        self.query_at = positions([2] * 150 + [1] * 590)
+        self.reference = draw_walk(self.folder / "reference", wall, self.reference_at)
+        self.query = draw_walk(self.folder / "query", wall, self.query_at, gain=0.7)
+        self.reference_truth = write_truth(self.folder / "reference.csv", self.reference_at)
+        self.query_truth = write_truth(self.folder / "query.csv", self.query_at)
+        self.route = self.folder / "route.db"
+        check("build", self.reference, "-o", self.route, "--truth", self.reference_truth)
+        self.run = self.folder / "run"
+        check("localise", self.query, "--route", self.route, "-o", self.run)
+
+
+class CliTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.walks = Fixture()
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.walks.folder)
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="retrace-cli-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def refused(self, *arguments, says, code=1, leaves=(), **options):
+        """Runs, and expects one clear line, the exit code, and nothing in self.folder but what was there or `leaves`."""
+        before = {str(p) for p in self.folder.rglob("*")}
+        done = run(*arguments, **options)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1 if code == 1 else 2, done.stderr)
+        self.assertTrue(done.stderr.startswith("retrace: "), done.stderr)
+        self.assertIn(says, done.stderr)
+        after = {str(p) for p in self.folder.rglob("*")}
+        self.assertEqual(after - before - {str(self.folder / name) for name in leaves}, set())
+
+    # ---- the road ----
+
+    def test_finds_the_walk_and_writes_the_contract_s_files(self):
+        found = rows(self.walks.run / "matches.csv")
+        self.assertEqual(list(found[0]), MATCH_COLUMNS)
+        frames = [int(row["query_frame"]) for row in found]
+        self.assertEqual(frames, sorted(set(frames)))
+        keyframes = json.loads(check("inspect", self.walks.route, "--json"))["traverses"][0]["keyframe"]
+        spacing = (self.walks.reference_at[-1] - self.walks.reference_at[0]) / len(keyframes)
+        for row in found:
+            if row["accepted"] == "1":
+                # Sampling leaves up to one keyframe between neighbours of both walks, the search may add one.
+                at = self.walks.reference_at[int(row["reference_frame"])]
+                self.assertLess(abs(at - self.walks.query_at[int(row["query_frame"])]), 2 * spacing)
+                self.assertAlmostEqual(float(row["reference_distance_m"]), at * 0.01, places=4)
+        self.assertGreater(sum(row["accepted"] == "1" for row in found), 0.8 * len(found))
+        for name in ("trajectory.tum", "summary.json", "report.html", "config.toml", "cost_matrix.png"):
+            self.assertGreater((self.walks.run / name).stat().st_size, 0, name)
+        poses = [line.split() for line in (self.walks.run / "trajectory.tum").read_text().splitlines() if line[0] != "#"]
+        self.assertEqual(len(poses), sum(row["accepted"] == "1" for row in found))
+        self.assertEqual({len(pose) for pose in poses}, {8})
+
+    def test_evaluates_by_distances_and_by_landmarks(self):
+        run_folder = self.folder / "run"
+        shutil.copytree(self.walks.run, run_folder)
+        check("evaluate", run_folder, "--query-truth", self.walks.query_truth, "--reference-truth",
+              self.walks.reference_truth, "--tolerance-m", "0.4")
+        metrics = read_json(run_folder / "metrics.json")
+        for key in ("queries", "with_truth", "max_f1", "max_f1_threshold", "precision", "recall", "auc_pr",
+                    "recall_at_100_precision", "recall_at_1"):
+            self.assertIn(key, metrics)
+        self.assertGreaterEqual(metrics["max_f1"], 0.95)
+        curve = rows(run_folder / "pr.csv")
+        best = max(curve, key=lambda row: float(row["f1"]))
+        self.assertAlmostEqual(float(best["f1"]), metrics["max_f1"], places=6)
+        self.assertIn("Max-F1", (run_folder / "report.html").read_text())
+
+        # Landmarks on the first half only: later queries have no true place, and accepted ones are false positives.
+        pairs = self.folder / "pairs.csv"
+        pairs.write_text("query_frame,reference_frame\n0,0\n150,300\n")
+        check("evaluate", run_folder, "--pairs", pairs, "--tolerance-frames", "15")
+        metrics = read_json(run_folder / "metrics.json")
+        inside = sum(int(row["query_frame"]) <= 150 for row in rows(run_folder / "matches.csv"))
+        self.assertEqual(metrics["with_truth"], inside)
+        self.assertLess(metrics["accepted"]["precision"], 0.6)
+
+    def test_a_second_traverse_joins_the_route(self):
+        route = self.folder / "route.db"
+        shutil.copy(self.walks.route, route)
+        check("build", self.walks.query, "-o", route, "--name", "evening")
+        self.refused("build", self.walks.query, "-o", route, "--name", "evening", says="already has a traverse 'evening'")
+        check("build", self.walks.query, "-o", route, "--name", "evening", "--force")
+        names = [t["name"] for t in json.loads(check("inspect", route, "--json"))["traverses"]]
+        self.assertEqual(names, ["reference", "evening"])
+        check("localise", self.walks.query, "--route", route, "-o", self.folder / "run")
+        found = rows(self.folder / "run" / "matches.csv")
+        self.assertGreater(sum(row["traverse"] == "evening" for row in found), 0.5 * len(found))
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        files = {}
+        for threads in ("1", "2"):
+            route, out = self.folder / f"route{threads}.db", self.folder / f"run{threads}"
+            # The number of threads itself is a setting, kept in the database and the saved configuration.
+            check("build", self.walks.reference, "-o", route, "--threads", threads)
+            check("localise", self.walks.query, "--route", route, "-o", out, "--threads", threads, "--save-matrices")
+            files[threads] = {name: (out / name).read_bytes() for name in
+                              ("matches.csv", "trajectory.tum", "cost_matrix.png", "D.csv", "DD.csv")}
+            files[threads]["inspect"] = re.sub(r'"(threads|route|bytes)".*', "", check("inspect", route, "--json"))
+        self.assertEqual(files["1"], files["2"])
+        again = self.folder / "again.db"
+        check("build", self.walks.reference, "-o", again, "--threads", "2")
+        self.assertEqual(again.read_bytes(), (self.folder / "route2.db").read_bytes())
+
+    def test_openseqslam_mode_leaves_the_ends_unmatched(self):
+        route = self.folder / "route.db"
+        check("build", self.walks.reference, "-o", route, "--motion", "none", "--every", "6")
+        check("localise", self.walks.query, "--route", route, "-o", self.folder / "run", "--compat", "openseqslam")
+        found = rows(self.folder / "run" / "matches.csv")
+        unmatched = [i for i, row in enumerate(found) if row["reference_frame"] == ""]
+        self.assertEqual(unmatched, [0, 1, 2, 3, 4] + [len(found) - k for k in (5, 4, 3, 2, 1)])
+        self.assertTrue(all(found[i]["accepted"] == "0" for i in unmatched))
+
+    def test_inspect_shows_text_and_json(self):
+        text = check("inspect", self.walks.route)
+        for part in ("traverse 'reference'", "600 frames of 96x48 px", "poses from reference.csv", "motion model"):
+            self.assertIn(part, text)
+
+    # ---- videos ----
+
+    def test_reads_video_with_its_own_times_and_rotation(self):
+        # Two seconds at 30 frames/s, then half as many for the rest: index / rate would be wrong by seconds.
+        path = video(self.walks.reference, self.folder / "vfr.mkv", "-vf",
+                     "setpts='if(lt(N,60),N/30,2+(N-60)/15)/TB'", "-fps_mode", "vfr")
+        check("build", path, "-o", self.folder / "route.db")
+        keyframes = json.loads(check("inspect", self.folder / "route.db", "--json"))["traverses"][0]["keyframe"]
+        for keyframe in keyframes:
+            n = keyframe["frame"]
+            self.assertAlmostEqual(keyframe["time_s"], n / 30 if n < 60 else 2 + (n - 60) / 15, delta=1 / 15)  # ffmpeg may drop one frame at the change
+        upright = video(self.walks.reference, self.folder / "plain.mp4")
+        turned = self.folder / "turned.mp4"
+        subprocess.run(["ffmpeg", "-v", "error", "-i", upright, "-c", "copy", "-metadata:s:v", "rotate=90", turned], check=True)
+        check("build", turned, "-o", self.folder / "turned.db")
+        self.assertIn("48x96 px", check("inspect", self.folder / "turned.db"))
+
+    def test_a_video_that_breaks_off_gives_what_it_has(self):
+        whole = video(self.walks.reference, self.folder / "whole.avi")
+        cut = self.folder / "cut.avi"
+        cut.write_bytes(whole.read_bytes()[:int(whole.stat().st_size * 0.6)])
+        done = run("build", cut, "-o", self.folder / "route.db")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"cut.avi: breaks off: \d+ of 600 frames could be read")
+
+    # ---- bad input ----
+
+    def test_refuses_what_is_no_walk(self):
+        route = self.folder / "route.db"
+        self.refused("build", self.folder / "none.mp4", "-o", route, says="none.mp4: does not exist")
+        (self.folder / "empty.mp4").touch()
+        self.refused("build", self.folder / "empty.mp4", "-o", route, says="empty.mp4: is empty (0 bytes)")
+        (self.folder / "text.mp4").write_text("this is no video\n" * 50)
+        self.refused("build", self.folder / "text.mp4", "-o", route, says="text.mp4: is no video that FFmpeg can read")
+        one = draw_walk(self.folder / "one", street(length=200), [0])
+        self.refused("build", one, "-o", route, says="has 1 frame; expected a walk of at least 2 frames")
+        film = video(one, self.folder / "one.avi")
+        self.refused("build", film, "-o", route, says="has 1 frame")
+        still = draw_walk(self.folder / "still", street(length=200), [3] * 60)
+        self.refused("build", still, "-o", route, says="shows no motion to learn from")
+        black = draw_walk(self.folder / "black", street(length=400), range(60), gain=0)
+        self.refused("build", black, "-o", route, says="shows no motion to learn from")
+        (one / "1.pgm").write_bytes(b"P5 4 4 255\n" + bytes(16))
+        self.refused("build", one, "-o", route, says="1.pgm: is 4x4 pixels; expected 96x48")
+        (one / "1.pgm").write_bytes(b"no picture")
+        self.refused("build", one, "-o", route, says="1.pgm: cannot be read as an image")
+
+    def test_refuses_routes_that_do_not_fit(self):
+        out = ("-o", self.folder / "run")
+        self.refused("localise", self.walks.query, "--route", self.folder / "none.db", *out, says="none.db: does not exist")
+        (self.folder / "text.db").write_text("this is no database " * 100)
+        self.refused("localise", self.walks.query, "--route", self.folder / "text.db", *out, says="is no route database")
+        (self.folder / "empty.db").touch()
+        self.refused("inspect", self.folder / "empty.db", says="is no route database")
+        self.refused("localise", self.walks.query, "--route", self.walks.route, *out, "--thumbnail-width", "32",
+                     says="was built with --thumbnail-width 64, not 32")
+        self.refused("localise", self.walks.query, "--route", self.walks.route, *out, "--sequence-length", "500",
+                     says="keyframes, the sequence 500", leaves=["run"])
+        whole = self.walks.route.read_bytes()
+        (self.folder / "cut.db").write_bytes(whole[:len(whole) // 2])
+        self.refused("localise", self.walks.query, "--route", self.folder / "cut.db", *out, says="cut.db: is damaged")
+        newer = bytearray(whole)
+        newer[60:64] = (99).to_bytes(4, "big")  # the header's user version
+        (self.folder / "newer.db").write_bytes(newer)
+        self.refused("localise", self.walks.query, "--route", self.folder / "newer.db", *out, says="written by a newer retrace")
+        self.refused("build", self.walks.query, "-o", self.folder / "newer.db", says="written by a newer retrace")
+
+    def test_refuses_truth_that_is_wrong(self):
+        route = self.folder / "route.db"
+        good = self.walks.reference_truth.read_text().splitlines()
+        cases = {
+            "no column 'distance_m'": [",".join(line.split(",")[:5]) for line in good],
+            "line 5: x_m is 'abc'": good[:4] + [good[4].replace(",0,", ",abc,", 1)] + good[5:],
+            "has 199 rows; expected 600": good[:200],
+            "line 3: frame is 7; expected 1": good[:2] + ["7" + good[2][1:]] + good[3:],
+        }
+        for says, lines in cases.items():
+            (self.folder / "truth.csv").write_text("\n".join(lines) + "\n")
+            self.refused("build", self.walks.reference, "-o", route, "--truth", self.folder / "truth.csv", says=says)
+        self.refused("build", self.walks.reference, "-o", route, "--trajectory", self.walks.reference_truth, says="line 1")
+
+        short = self.folder / "short.csv"
+        short.write_text("\n".join(good[:50]) + "\n")
+        run_folder = self.folder / "run"
+        shutil.copytree(self.walks.run, run_folder)
+        self.refused("evaluate", run_folder, "--query-truth", self.walks.query_truth, "--reference-truth", short,
+                     "--tolerance-m", "1", says="reference truth: has no frame")
+        (self.folder / "pairs.csv").write_text("query_frame,reference_frame\n5,1\n5,2\n")
+        self.refused("evaluate", run_folder, "--pairs", self.folder / "pairs.csv", "--tolerance-frames", "1",
+                     says="line 3: query_frame 5 does not follow 5")
+        self.refused("evaluate", self.folder / "nowhere", "--pairs", self.folder / "pairs.csv", "--tolerance-frames", "1",
+                     says="nowhere: is no folder")
+
+    def test_refuses_settings_that_are_wrong(self):
+        config = self.folder / "my.toml"
+        build = ("build", self.walks.reference, "-o", self.folder / "route.db", "--config", config)
+        for text, says in (("sequnce-length = 5\n", "my.toml: has an unknown key 'sequnce-length'; expected 'sequence-length'?"),
+                           ("sampling-n = 3\nsampling-n = 4\n", "my.toml: has the key 'sampling-n' twice"),
+                           ("sampling-n = \"many\"\n", "my.toml: sampling-n: "),
+                           ("thumbnail-width = 3\n", "my.toml: thumbnail-width: "),
+                           ("motion = \"steam\"\n", "my.toml: motion: ")):
+            config.write_text(text)
+            self.refused(*build, says=says)
+        self.refused("build", self.walks.reference, "-o", self.folder / "route.db", "--config", self.folder / "none.toml",
+                     says="none.toml: is no file")
+        self.refused("build", self.walks.reference, "-o", self.folder / "route.db", "--samplin-n", "3",
+                     says="did you mean --sampling-n?", code=2)
+        self.refused("biuld", says="did you mean build?", code=2)
+        self.refused("localise", self.walks.query, says="--output is required", code=2)
+
+    def test_flags_come_on_top_of_the_file_and_the_run_can_be_repeated(self):
+        config = self.folder / "my.toml"
+        config.write_text("# a comment\nsequence-length = 7\nenhance = \"local\"\nsampling-n = 6\n")
+        first = self.folder / "first"
+        check("localise", self.walks.query, "--route", self.walks.route, "-o", first, "--config", config, "--enhance", "none")
+        saved = (first / "config.toml").read_text()
+        self.assertIn("sequence-length = 7\n", saved)
+        self.assertIn('enhance = "none"\n', saved)
+        second = self.folder / "second"
+        check("localise", self.walks.query, "--route", self.walks.route, "-o", second, "--config", first / "config.toml")
+        self.assertEqual((first / "matches.csv").read_bytes(), (second / "matches.csv").read_bytes())
+        self.assertEqual(saved, (second / "config.toml").read_text())
+
+    def test_the_default_configuration_is_current(self):
+        self.assertEqual((SOURCE / "configs" / "default.toml").read_text(), check("config"))
+        for name in ("default", "indoor", "outdoor"):
+            check("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / name, "--sampling-n", "6",
+                  "--config", SOURCE / "configs" / f"{name}.toml")
+
+    # ---- what is left behind ----
+
+    def test_keeps_results_that_are_there(self):
+        again = ("localise", self.walks.query, "--route", self.walks.route, "-o", self.walks.run)
+        before = (self.walks.run / "matches.csv").read_bytes()
+        self.refused(*again, "--sequence-length", "5", says="already exists; expected another folder, or --force")
+        self.assertEqual(before, (self.walks.run / "matches.csv").read_bytes())
+
+    def test_refuses_folders_it_cannot_write_to(self):
+        self.refused("build", self.walks.reference, "-o", self.folder / "none" / "route.db", says="none: is no folder")
+        (self.folder / "file").touch()
+        self.refused("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / "file" / "run",
+                     says="cannot be created")
+        self.refused("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / "file",
+                     says="file: is no folder")
+        if os.geteuid() != 0:  # root may write anywhere
+            os.chmod(self.folder, 0o500)
+            try:
+                self.refused("build", self.walks.reference, "-o", self.folder / "route.db", says="cannot be written to")
+            finally:
+                os.chmod(self.folder, 0o700)
+
+    def test_a_full_disk_leaves_the_old_file(self):
+        route = self.folder / "route.db"
+        shutil.copy(self.walks.route, route)
+        before = route.read_bytes()
+        # A file size limit stands for the full disk: writes fail beyond it. The walk comes from elsewhere.
+        limited = ["bash", "-c", 'ulimit -f 40; exec "$0" "$@"', RETRACE, "build", str(self.walks.query), "-o", str(route),
+                   "--name", "evening"]
+        done = subprocess.run(limited, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertIn("route.db: ", done.stderr)
+        self.assertEqual(before, route.read_bytes())
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["route.db"])
+
+    def test_a_killed_build_leaves_the_old_file(self):
+        route = self.folder / "route.db"
+        shutil.copy(self.walks.route, route)
+        before = route.read_bytes()
+        for delay_s in (0.02, 0.05, 0.1, 0.2, 0.4):
+            process = subprocess.Popen([RETRACE, "build", str(self.walks.query), "-o", str(route), "--name", "evening", "--force"],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(delay_s)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            traverses = check("inspect", route).count("traverse '")
+            self.assertIn(traverses, (1, 2))
+            if traverses == 1:
+                self.assertEqual(before, route.read_bytes())
+
+    # ---- help ----
+
+    def test_help_shows_units_defaults_and_examples(self):
+        for command in ("build", "localise", "evaluate", "inspect", "config"):
+            text = check(command, "--help")
+            self.assertIn("Example", text)
+            self.assertIn(f"retrace {command}", text)
+        self.assertRegex(check("localise", "--help"), r"--search-range-rad FLOAT.*=0\.1")
+        self.assertRegex(check("--version"), r"^retrace \d+\.\d+\.\d+\n$")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
