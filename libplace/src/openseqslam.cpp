@@ -152,7 +152,9 @@ std::vector<Match> find_matches(const CostMatrix& enhanced, const Options& optio
       if (start + window < best || start > best + window) second = std::min(second, best_from[start]);
     }
     const std::size_t offset = options.quirks.centre_ignores_velocity ? half : lines[best_line[best]][half];
-    matches[q] = {.reference = best + offset, .score = best_from[best] / second};
+    // The original's centre may lie past the last reference where lines are slower than 1/2.
+    matches[q] = {.reference = std::min(best + offset, enhanced.references - 1),
+                  .score = best_from[best] / second};
   });
   return matches;
 }

@@ -1,5 +1,6 @@
 #include "place/resampling.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -28,9 +29,12 @@ std::vector<std::size_t> resample(std::span<const double> displacement, double u
     const double before = travelled;
     travelled += displacement[i];
     if (travelled < next) continue;
-    const bool earlier_is_nearer = next - before < travelled - next && i - 1 > keyframes.back();
-    keyframes.push_back(earlier_is_nearer ? i - 1 : i);
-    next = (std::floor(travelled / unit) + 1) * unit;
+    // The multiples between the two frames: the first may lie nearer to the frame before, the last to this
+    // one, and those between have no frame of their own.
+    const double last = std::max(next, std::floor(travelled / unit) * unit);
+    if (next - before < travelled - next && i - 1 > keyframes.back()) keyframes.push_back(i - 1);
+    if (travelled - last <= last - before) keyframes.push_back(i);
+    next = last + unit;
   }
   return keyframes;
 }

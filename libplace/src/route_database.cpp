@@ -237,6 +237,12 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
                     fmt::format("schema version {} or older; update retrace", kRouteSchemaVersion));
   }
 
+  // SQLite fills a last page that is cut short with zeros.
+  Statement size = database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
+  if (!size.step() || size.integer() != static_cast<std::int64_t>(std::filesystem::file_size(path))) {
+    damaged(shown, "it is cut short");
+  }
+
   Statement row = database.prepare(
       "SELECT software_version, thumbnail_width, thumbnail_height, patch_px, patch_shape, "
       "patch_min_deviation, patch_min_contrast, motion, "

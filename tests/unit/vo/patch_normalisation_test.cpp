@@ -20,6 +20,29 @@ std::vector<std::uint8_t> noise(std::size_t count, std::uint64_t seed) {
   return values;
 }
 
+/// The definition's floor: the median deviation of the grid's cells, times min_contrast.
+double contrast_floor(const std::vector<std::uint8_t>& image, int width, int height,
+                      const vo::PatchNormalisationOptions& options) {
+  std::vector<double> deviations;
+  const int p = options.patch_px;
+  for (int y0 = 0; y0 < height; y0 += p) {
+    for (int x0 = 0; x0 < width; x0 += p) {
+      std::vector<double> cell;
+      for (int y = y0; y < std::min(height, y0 + p); ++y) {
+        for (int x = x0; x < std::min(width, x0 + p); ++x)
+          cell.push_back(image[static_cast<std::size_t>(y * width + x)]);
+      }
+      const auto n = static_cast<double>(cell.size());
+      double mean = 0, square = 0;
+      for (const double value : cell) mean += value / n;
+      for (const double value : cell) square += (value - mean) * (value - mean) / n;
+      deviations.push_back(std::sqrt(square));
+    }
+  }
+  std::ranges::sort(deviations);
+  return options.min_contrast * deviations[deviations.size() / 2];
+}
+
 /// SSS Eq. 2 written down directly.
 float brute_force(const std::vector<std::uint8_t>& image, int width, int height, int x, int y,
                   const vo::PatchNormalisationOptions& options) {
@@ -38,18 +61,19 @@ float brute_force(const std::vector<std::uint8_t>& image, int width, int height,
     for (int i = x0; i < x1; ++i)
       square += std::pow(image[static_cast<std::size_t>(j * width + i)] - mean, 2) / n;
   }
-  return static_cast<float>((image[static_cast<std::size_t>(y * width + x)] - mean) /
-                            std::max(std::sqrt(square), options.min_deviation));
+  return static_cast<float>(
+      (image[static_cast<std::size_t>(y * width + x)] - mean) /
+      std::max({std::sqrt(square), options.min_deviation, contrast_floor(image, width, height, options)}));
 }
 
 TEST(PatchNormalise, WorkedExample) {
   // Mean 4, population deviation 2: -1, -1, 1, 1 deviations.
   const std::vector<std::uint8_t> image{2, 2, 6, 6};
   std::vector<float> z(4);
-  vo::patch_normalise(image, 2, 2, {.patch_px = 2}, z);
+  const vo::PatchNormalisationOptions options{.patch_px = 2, .min_contrast = 0};
+  vo::patch_normalise(image, 2, 2, options, z);
   EXPECT_THAT(z, testing::ElementsAre(-1, -1, 1, 1));
-  const vo::ImageStack bytes =
-      vo::patch_normalise({.width = 2, .height = 2, .pixels = image}, {.patch_px = 2});
+  const vo::ImageStack bytes = vo::patch_normalise({.width = 2, .height = 2, .pixels = image}, options);
   EXPECT_THAT(bytes.pixels, testing::ElementsAre(112, 112, 144, 144));
 }
 
@@ -57,17 +81,34 @@ TEST(PatchNormalise, EqualsTheDefinition) {
   constexpr int kWidth = 24, kHeight = 16;
   const auto image = noise(kWidth * kHeight, 3);
   for (const auto shape : {vo::PatchShape::kGrid, vo::PatchShape::kWindow}) {
-    const vo::PatchNormalisationOptions options{.patch_px = 8, .shape = shape};
-    std::vector<float> z(image.size());
-    vo::patch_normalise(image, kWidth, kHeight, options, z);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        // Both are right to float rounding of values below 8.
-        EXPECT_NEAR(z[static_cast<std::size_t>(y * kWidth + x)],
-                    brute_force(image, kWidth, kHeight, x, y, options), 1e-5);
+    for (const double min_contrast : {0.0, 1.0, 1.25}) {
+      SCOPED_TRACE(min_contrast);
+      const vo::PatchNormalisationOptions options{
+          .patch_px = 8, .shape = shape, .min_contrast = min_contrast};
+      std::vector<float> z(image.size());
+      vo::patch_normalise(image, kWidth, kHeight, options, z);
+      float worst = 0;
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          worst = std::max(worst, std::abs(z[static_cast<std::size_t>(y * kWidth + x)] -
+                                           brute_force(image, kWidth, kHeight, x, y, options)));
+        }
       }
+      EXPECT_LT(worst, 1e-5);  // both are right to float rounding of values below 8
     }
   }
+}
+
+TEST(PatchNormalise, DoesNotBlowUpAFlatPatchBesideContrast) {
+  // Four cells of 2x2: three of deviation 8 and one of deviation 2, which is divided by 1.25 * 8 all the
+  // same.
+  const std::vector<std::uint8_t> image{92, 92, 92, 92, 108, 108, 108, 108,
+                                        92, 92, 98, 98, 108, 108, 102, 102};
+  std::vector<float> z(16);
+  vo::patch_normalise(image, 4, 4, {.patch_px = 2, .min_contrast = 1.25}, z);
+  EXPECT_THAT(
+      z, testing::Pointwise(testing::FloatEq(), {-0.8F, -0.8F, -0.8F, -0.8F, 0.8F, 0.8F, 0.8F, 0.8F, -0.8F,
+                                                 -0.8F, -0.2F, -0.2F, 0.8F, 0.8F, 0.2F, 0.2F}));
 }
 
 TEST(PatchNormalise, GivesTheNeutralValueWithoutTexture) {
@@ -97,7 +138,7 @@ TEST(PatchNormalise, BytesAreTheDeviationsRounded) {
   // One bright pixel among 63: the largest deviation there is, sqrt(63) = 7.94, still fits.
   std::vector<std::uint8_t> image(64, 0);
   image[20] = 255;
-  const auto bytes = vo::patch_normalise({.width = 8, .height = 8, .pixels = image}, {});
+  const auto bytes = vo::patch_normalise({.width = 8, .height = 8, .pixels = image}, {.min_contrast = 0});
   EXPECT_EQ(bytes.pixels[20], 255);
   EXPECT_EQ(bytes.pixels[0], 126);  // -1 / sqrt(63) = -0.126 deviations = -2.02 steps
 }

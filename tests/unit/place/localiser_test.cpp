@@ -1,0 +1,365 @@
+#include "support/synthetic_walk.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/localiser.hpp>
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+
+namespace {
+
+using test_support::places;
+using test_support::Wall;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr int kWallPx = 600;
+
+/// A walk and where its frames truly are.
+struct KnownWalk {
+  std::vector<double> place_px;
+  vo::Walk walk;
+};
+
+KnownWalk known_walk(const Wall& wall, std::vector<double> place_px) {
+  vo::Walk walk = wall.walk(place_px);
+  return {std::move(place_px), std::move(walk)};
+}
+
+/// A steady walk along the whole wall.
+KnownWalk steady_walk(const Wall& wall, double speed_px, double start_px = 0, double end_px = kWallPx) {
+  const auto frames = static_cast<std::size_t>((end_px - start_px) / speed_px);
+  return known_walk(wall, places(start_px, std::vector<double>(frames, speed_px)));
+}
+
+/// Distances along the wall at a tenth of a metre per pixel, and poses to match.
+place::Survey survey_of(const KnownWalk& known) {
+  place::Survey survey{.source = "truth.csv", .pose = {}, .distance_m = {}};
+  for (const double place_px : known.place_px) {
+    survey.distance_m.emplace_back(place_px / 10);
+    survey.pose.emplace_back(vo::Pose2{place_px / 10, 0, 0});
+  }
+  return survey;
+}
+
+/// Adds a walk to a route, the first one giving the sampling unit.
+void add_traverse(place::Route& route, const std::string& name, const KnownWalk& known,
+                  place::WalkSamplingOptions options = {}, bool surveyed = true) {
+  options.sampling = route.sampling;
+  const place::Traverse* first = route.traverses.empty() ? nullptr : &route.traverses.front();
+  const auto sampled = place::sample_walk(known.walk, route, first, options);
+  route.sampling.unit = sampled.unit;
+  route.traverses.push_back(place::make_traverse(name, known.walk, sampled,
+                                                 surveyed ? std::optional(survey_of(known)) : std::nullopt));
+}
+
+place::SampledWalk sample_query(const KnownWalk& known, const place::Route& route) {
+  place::WalkSamplingOptions options;
+  options.sampling = route.sampling;
+  return place::sample_walk(known.walk, route, &route.traverses.front(), options);
+}
+
+/// Mean pixels between neighbouring keyframes of a traverse.
+double spacing_px(const place::Traverse& traverse) {
+  return 10 * (*traverse.keyframes.back().distance_m - *traverse.keyframes.front().distance_m) /
+         static_cast<double>(traverse.keyframes.size() - 1);
+}
+
+/// Share of the query keyframes found within `tolerance_px` of where they are.
+double share_found(const place::Localisation& found, const KnownWalk& query, double tolerance_px) {
+  std::size_t right = 0;
+  for (const auto& match : found.matches) {
+    if (!match.place) continue;
+    const double true_px = query.place_px[static_cast<std::size_t>(match.query_frame)];
+    right += std::abs(10 * *match.place->distance_m - true_px) <= tolerance_px ? 1 : 0;
+  }
+  return static_cast<double>(right) / static_cast<double>(found.matches.size());
+}
+
+/// One traverse along the wall at 1/2 pixel a frame, sampled by motion.
+class LocaliserTest : public testing::Test {
+ protected:
+  LocaliserTest() {
+    add_traverse(route_, "by day", steady_walk(wall_, 0.5));
+    options_.search.search_range_rad = 0.3;
+  }
+  Wall wall_{kWallPx, 1};
+  place::Route route_;
+  place::LocaliserOptions options_;
+};
+
+TEST(SampleWalk, EveryKthWithoutMotion) {
+  const Wall wall(kWallPx, 1);
+  const auto known = steady_walk(wall, 1, 0, 100);
+  place::WalkSamplingOptions options;
+  options.sampling = {.motion = place::MotionSource::kNone, .every = 7};
+  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
+  ASSERT_THAT(sampled.frames, SizeIs(15));  // 0, 7, ..., 98 of 101
+  for (std::size_t k = 0; k < 15; ++k) EXPECT_EQ(sampled.frames[k], 7 * k);
+  EXPECT_THAT(sampled.displacement, IsEmpty());
+  EXPECT_FALSE(sampled.motion_model.learned());
+  EXPECT_EQ(sampled.unit, 0);
+  EXPECT_EQ(sampled.scale, 1);
+  EXPECT_EQ(sampled.thumbnails.pixels, vo::select(known.walk.thumbnails, sampled.frames).pixels);
+}
+
+TEST_F(LocaliserTest, SamplesEvenlyWhateverTheSpeed) {
+  // Half the frames go at twice the speed of the others.
+  std::vector<double> speed_px(600, 0.3);
+  speed_px.insert(speed_px.end(), 300, 0.6);
+  const auto known = known_walk(wall_, places(50, speed_px));
+  const auto sampled = sample_query(known, route_);
+  std::vector<double> slow_px, fast_px;
+  for (std::size_t k = 1; k < sampled.frames.size(); ++k) {
+    const double gap_px = known.place_px[sampled.frames[k]] - known.place_px[sampled.frames[k - 1]];
+    (sampled.frames[k] < 600 ? slow_px : fast_px).push_back(gap_px);
+  }
+  const auto median = [](std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+    return values[values.size() / 2];
+  };
+  // Without motion the ratio would be 2; each gap is right to a step of a frame at either end.
+  EXPECT_NEAR(median(fast_px) / median(slow_px), 1, 0.35);
+  // Tied to the first traverse, keyframes lie as far apart as its do.
+  EXPECT_NEAR(median(slow_px), spacing_px(route_.traverses[0]), 0.35 * spacing_px(route_.traverses[0]));
+}
+
+TEST_F(LocaliserTest, TiesTheScaleToTheFirstTraverse) {
+  // Walks at one speed throughout are sampled by their own mean: at 0.9 pixels a frame instead of 0.5, a
+  // keyframe step reaches 1.8 times as far.
+  const auto fast = steady_walk(wall_, 0.9);
+  place::WalkSamplingOptions options;
+  options.sampling = route_.sampling;
+  const auto tied = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
+  EXPECT_NEAR(tied.scale, 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
+  options.tie_scale = false;
+  const auto loose = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
+  EXPECT_EQ(loose.scale, 1);
+  EXPECT_LT(loose.frames.size(), tied.frames.size());
+  EXPECT_EQ(place::sample_walk(fast.walk, route_, nullptr, options).unit, route_.sampling.unit);
+}
+
+TEST_F(LocaliserTest, MakesATraverseOfASampledWalk) {
+  const auto known = steady_walk(wall_, 0.5);
+  const place::Traverse& traverse = route_.traverses[0];
+  EXPECT_EQ(traverse.name, "by day");
+  EXPECT_EQ(traverse.source, "wall");
+  EXPECT_EQ(traverse.pose_source, "truth.csv");
+  EXPECT_EQ(traverse.frames, static_cast<std::int64_t>(known.place_px.size()));
+  EXPECT_EQ(traverse.duration_s, known.walk.time_s.back());
+  EXPECT_TRUE(traverse.motion_model.learned());
+  ASSERT_EQ(traverse.thumbnails.size(), traverse.keyframes.size());
+  ASSERT_GT(traverse.keyframes.size(), 50U);
+  for (std::size_t k = 0; k < traverse.keyframes.size(); ++k) {
+    const auto& keyframe = traverse.keyframes[k];
+    const auto frame = static_cast<std::size_t>(keyframe.frame);
+    EXPECT_EQ(keyframe.time_s, known.walk.time_s[frame]);
+    EXPECT_EQ(keyframe.distance_m, known.place_px[frame] / 10);
+    EXPECT_EQ(keyframe.pose->x_m, known.place_px[frame] / 10);
+    EXPECT_THAT(traverse.thumbnails[k], testing::ElementsAreArray(known.walk.thumbnails[frame]));
+    // Each multiple of the unit has the frame nearest to it, which is within half the fastest step, 2.
+    EXPECT_NEAR(keyframe.displacement, static_cast<double>(k) * route_.sampling.unit, 1) << k;
+  }
+}
+
+TEST(MakeTraverse, RefusesTheSurveyOfAnotherWalk) {
+  const Wall wall(100, 1);
+  const auto known = steady_walk(wall, 1, 0, 20);
+  place::WalkSamplingOptions options;
+  options.sampling.motion = place::MotionSource::kNone;
+  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
+  auto survey = survey_of(known);
+  EXPECT_NO_THROW(place::make_traverse("a", known.walk, sampled, survey));
+  survey.distance_m.pop_back();
+  EXPECT_THROW(place::make_traverse("a", known.walk, sampled, survey), std::invalid_argument);
+  const auto bare = place::make_traverse("a", known.walk, sampled, std::nullopt);
+  EXPECT_EQ(bare.pose_source, "");
+  EXPECT_FALSE(bare.keyframes[3].distance_m || bare.keyframes[3].pose);
+  EXPECT_EQ(bare.keyframes[3].displacement, 0);
+}
+
+TEST_F(LocaliserTest, FindsAWalkAtAnotherSpeed) {
+  // A part of the wall, at twice the speed and then at half.
+  std::vector<double> speed_px(150, 1.0);
+  speed_px.insert(speed_px.end(), 600, 0.25);
+  const auto query = known_walk(wall_, places(101.3, speed_px));
+  const auto sampled = sample_query(query, route_);
+  const auto found = place::localise(route_, query.walk, sampled, options_);
+  ASSERT_EQ(found.matches.size(), sampled.frames.size());
+  EXPECT_GT(found.matches.size(), 30U);
+  EXPECT_EQ(found.sequence_length, 10);
+  EXPECT_GT(found.lines, 1);
+  ASSERT_THAT(found.matrices, SizeIs(1));
+  EXPECT_EQ(found.matrices[0].cost.queries, sampled.frames.size());
+  EXPECT_EQ(found.matrices[0].enhanced.references, route_.traverses[0].keyframes.size());
+  for (std::size_t q = 0; q < found.matches.size(); ++q) {
+    const auto& match = found.matches[q];
+    EXPECT_EQ(match.query_frame, static_cast<std::int64_t>(sampled.frames[q]));
+    EXPECT_EQ(match.query_time_s, query.walk.time_s[sampled.frames[q]]);
+    ASSERT_TRUE(match.place) << q;
+    EXPECT_EQ(match.place->traverse, "by day");
+    const auto& keyframe = route_.traverses[0].keyframes[match.place->keyframe];
+    EXPECT_EQ(match.place->frame, keyframe.frame);
+    EXPECT_EQ(match.place->time_s, keyframe.time_s);
+    EXPECT_EQ(match.place->distance_m, keyframe.distance_m);
+    EXPECT_EQ(match.accepted, match.score >= options_.acceptance_threshold);
+  }
+  // Keyframes of two walks lie at most half a spacing apart; a line of whole keyframes adds another half.
+  // Where less than a whole line is inside, or the path bends because the speed changes (251.3 px, with half
+  // a sequence on either side), a straight line is off by one more.
+  const double spacing = spacing_px(route_.traverses[0]);
+  for (const auto& match : found.matches) {
+    const double true_px = query.place_px[static_cast<std::size_t>(match.query_frame)];
+    const bool straight = !match.partial && std::abs(true_px - 251.3) > 5 * spacing;
+    EXPECT_NEAR(10 * *match.place->distance_m, true_px, (straight ? 1 : 2) * spacing) << match.query_frame;
+  }
+}
+
+TEST_F(LocaliserTest, TheThresholdDecidesWhatIsAccepted) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  options_.acceptance_threshold = -1;
+  for (const auto& match : place::localise(route_, query.walk, sampled, options_).matches)
+    EXPECT_TRUE(match.accepted);
+  options_.acceptance_threshold = 1000;
+  for (const auto& match : place::localise(route_, query.walk, sampled, options_).matches)
+    EXPECT_FALSE(match.accepted);
+}
+
+TEST_F(LocaliserTest, FlagsMatchesOnPartOfALineAtTheEnds) {
+  const auto query = steady_walk(wall_, 0.5, 150, 400);
+  const auto found = place::localise(route_, query.walk, sample_query(query, route_), options_);
+  // The walk lies well inside the reference, so only its own ends cut lines: terms are at -5 .. +4.
+  const std::size_t count = found.matches.size();
+  for (std::size_t q = 0; q < count; ++q) EXPECT_EQ(found.matches[q].partial, q < 5 || q + 4 >= count) << q;
+}
+
+TEST_F(LocaliserTest, TakesTheSurestOfSeveralTraverses) {
+  // A traverse of another wall knows nothing of this one; one along only the second half knows that.
+  add_traverse(route_, "elsewhere", steady_walk(Wall(kWallPx, 99), 0.5));
+  add_traverse(route_, "second half", steady_walk(wall_, 0.4, kWallPx / 2.0));
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  const auto sampled = sample_query(query, route_);
+  const auto found = place::localise(route_, query.walk, sampled, options_);
+  ASSERT_THAT(found.matrices, SizeIs(3));
+  std::vector<place::Localisation> each;
+  for (const auto& traverse : route_.traverses) {
+    place::Route only = route_;
+    only.traverses = {traverse};
+    each.push_back(place::localise(only, query.walk, sampled, options_));
+  }
+  for (std::size_t q = 0; q < found.matches.size(); ++q) {
+    const place::Match* surest = nullptr;
+    for (const auto& one : each) {
+      const auto& match = one.matches[q];
+      if (match.place && (surest == nullptr || match.score > surest->score)) surest = &match;
+    }
+    ASSERT_TRUE(surest != nullptr && found.matches[q].place);
+    EXPECT_EQ(found.matches[q].place->traverse, surest->place->traverse);
+    EXPECT_EQ(found.matches[q].place->keyframe, surest->place->keyframe);
+    EXPECT_EQ(found.matches[q].score, surest->score);
+    EXPECT_EQ(found.matches[q].partial, surest->partial);
+  }
+  EXPECT_EQ(share_found(found, query, 1.0 * spacing_px(route_.traverses[0])), 1);
+}
+
+TEST_F(LocaliserTest, AcceptsLittleOfAWalkThatWasNeverOnTheRoute) {
+  const Wall another(kWallPx, 77);
+  const auto here = steady_walk(wall_, 0.5, 100, 400), elsewhere = steady_walk(another, 0.5, 100, 400);
+  const auto mean_score = [&](const KnownWalk& query) {
+    const auto found = place::localise(route_, query.walk, sample_query(query, route_), options_);
+    double sum = 0;
+    for (const auto& match : found.matches) sum += match.score;
+    return sum / static_cast<double>(found.matches.size());
+  };
+  EXPECT_GT(mean_score(here), 2 * mean_score(elsewhere));
+}
+
+TEST_F(LocaliserTest, RefusesAReferenceShorterThanTheSequence) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  const std::size_t keyframes = route_.traverses[0].keyframes.size();
+  options_.search.length = static_cast<int>(keyframes);
+  EXPECT_NO_THROW(place::localise(route_, query.walk, sampled, options_));
+  options_.search.length = static_cast<int>(keyframes) + 1;
+  EXPECT_THROW_WITH(place::localise(route_, query.walk, sampled, options_), vo::Error,
+                    "traverse 'by day': has " + std::to_string(keyframes) + " keyframes, the sequence " +
+                        std::to_string(keyframes + 1));
+  route_.traverses.clear();
+  EXPECT_THROW(place::localise(route_, query.walk, sampled, options_), std::invalid_argument);
+}
+
+TEST_F(LocaliserTest, AQueryShorterThanHalfASequenceIsNotFound) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  auto sampled = sample_query(query, route_);
+  sampled.frames.resize(4);
+  sampled.thumbnails = vo::select(query.walk.thumbnails, sampled.frames);
+  const auto found = place::localise(route_, query.walk, sampled, options_);
+  ASSERT_THAT(found.matches, SizeIs(4));
+  for (const auto& match : found.matches) {
+    EXPECT_FALSE(match.place);
+    EXPECT_FALSE(match.accepted);
+    EXPECT_EQ(match.score, 0);
+  }
+}
+
+TEST_F(LocaliserTest, TakesTheSequenceLengthInMetres) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  const double spacing_m = spacing_px(route_.traverses[0]) / 10;
+  options_.sequence_length_m = 14.4 * spacing_m;
+  EXPECT_EQ(place::localise(route_, query.walk, sampled, options_).sequence_length, 14);
+  options_.sequence_length_m = 0.1 * spacing_m;
+  EXPECT_EQ(place::localise(route_, query.walk, sampled, options_).sequence_length, 1);
+  add_traverse(route_, "not surveyed", steady_walk(wall_, 0.5), {}, false);
+  EXPECT_THROW_WITH(place::localise(route_, query.walk, sampled, options_), vo::Error,
+                    "traverse 'not surveyed': has no surveyed distances");
+}
+
+TEST_F(LocaliserTest, TheOriginalsSearchLeavesTheEndsUnmatched) {
+  const auto query = steady_walk(wall_, 0.5, 100, 400);
+  options_.openseqslam = place::openseqslam::Options{};
+  options_.openseqslam->quirks = place::openseqslam::Quirks::original();
+  const auto found = place::localise(route_, query.walk, sample_query(query, route_), options_);
+  EXPECT_EQ(found.sequence_length, 10);
+  EXPECT_EQ(found.lines, 0);
+  const std::size_t count = found.matches.size();
+  for (std::size_t q = 0; q < count; ++q) {
+    const auto& match = found.matches[q];
+    EXPECT_EQ(match.place.has_value(), q >= 5 && q + 5 < count) << q;
+    EXPECT_FALSE(match.partial);
+    // 1 - best / second: a surer match scores higher, as everywhere.
+    EXPECT_GE(match.score, 0);
+    EXPECT_LE(match.score, 1);
+  }
+  // But for the 10 at the ends; the original's place is off by up to a keyframe more.
+  EXPECT_EQ(share_found(found, query, 2 * spacing_px(route_.traverses[0])),
+            1 - 10.0 / static_cast<double>(count));
+}
+
+TEST_F(LocaliserTest, IsTheSameForAnyThreadCount) {
+  const auto query = steady_walk(wall_, 0.8, 100, 400);
+  const auto run = [&](int threads) {
+    vo::set_thread_count(threads);
+    return place::localise(route_, query.walk, sample_query(query, route_), options_);
+  };
+  const auto one = run(1), four = run(4);
+  vo::set_thread_count(0);
+  ASSERT_EQ(one.matches.size(), four.matches.size());
+  for (std::size_t q = 0; q < one.matches.size(); ++q) {
+    EXPECT_EQ(one.matches[q].query_frame, four.matches[q].query_frame);
+    EXPECT_EQ(one.matches[q].place->keyframe, four.matches[q].place->keyframe);
+    EXPECT_EQ(one.matches[q].score, four.matches[q].score);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,191 @@
+#include "support/synthetic_walk.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+#include <vo/odometry.hpp>
+
+namespace {
+
+using test_support::places;
+using test_support::TemporaryFolder;
+using test_support::Wall;
+using testing::Each;
+using testing::ElementsAreArray;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// Writes the views at the given places as images.
+void write_walk(const std::filesystem::path& folder, const Wall& wall, const std::vector<double>& place_px) {
+  for (std::size_t i = 0; i < place_px.size(); ++i) {
+    auto pixels = wall.view(place_px[i]);
+    const cv::Mat image(Wall::kHeight, Wall::kWidth, CV_8UC1, pixels.data());
+    ASSERT_TRUE(cv::imwrite((folder / (std::to_string(i) + ".png")).string(), image));
+  }
+}
+
+double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                         values.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
+         static_cast<double>(end - begin);
+}
+
+TEST(ReadWalk, KeepsTimesThumbnailsAndPreviews) {
+  const TemporaryFolder folder;
+  const Wall wall(100, 1);
+  const auto place_px = places(0, std::vector<double>(20, 2.5));
+  write_walk(folder.path(), wall, place_px);
+  const vo::Walk walk =
+      vo::read_walk(folder.path().string(), {.frames = {.image_rate_hz = 10}, .preview_width_px = 32});
+  EXPECT_EQ(walk.source, folder.path().string());
+  EXPECT_EQ(walk.frame_width_px, Wall::kWidth);
+  EXPECT_EQ(walk.frame_height_px, Wall::kHeight);
+  ASSERT_EQ(walk.frames(), 21U);
+  ASSERT_EQ(walk.thumbnails.size(), 21U);
+  ASSERT_THAT(walk.previews, SizeIs(21));
+  EXPECT_THAT(walk.warnings, IsEmpty());
+  for (std::size_t i = 0; i < 21; ++i) {
+    EXPECT_DOUBLE_EQ(walk.time_s[i], static_cast<double>(i) / 10);
+    // The images are as large as thumbnails and PNG is lossless.
+    EXPECT_THAT(walk.thumbnails[i], ElementsAreArray(wall.view(place_px[i]))) << i;
+    const cv::Mat preview = cv::imdecode(walk.previews[i], cv::IMREAD_GRAYSCALE);
+    EXPECT_EQ(preview.size(), cv::Size(32, 16));
+  }
+}
+
+TEST(ReadWalk, KeepsNoPreviewWhereNoneIsAskedForAndNoneLargerThanTheFrame) {
+  const TemporaryFolder folder;
+  write_walk(folder.path(), Wall(10, 1), {0, 1});
+  EXPECT_THAT(vo::read_walk(folder.path().string(), {.preview_width_px = 0}).previews, IsEmpty());
+  const vo::Walk walk = vo::read_walk(folder.path().string(), {.preview_width_px = 160});
+  EXPECT_EQ(cv::imdecode(walk.previews[0], cv::IMREAD_GRAYSCALE).cols, Wall::kWidth);
+  EXPECT_THROW(vo::read_walk(folder.path().string(), {.preview_width_px = -1}), std::invalid_argument);
+}
+
+TEST(ReadWalk, RefusesASingleFrame) {
+  const TemporaryFolder folder;
+  write_walk(folder.path(), Wall(10, 1), {0});
+  EXPECT_THROW_WITH(vo::read_walk(folder.path().string()), vo::Error,
+                    folder.path().string() + ": has 1 frame; expected a walk of at least 2 frames");
+  EXPECT_THROW_WITH(vo::read_walk((folder / "none").string()), vo::Error, "none: does not exist");
+}
+
+TEST(ReadWalk, StopsEarlyWithWhatItHas) {
+  const TemporaryFolder folder;
+  write_walk(folder.path(), Wall(100, 1), places(0, std::vector<double>(99, 1)));
+  vo::set_thread_count(2);
+  std::vector<std::int64_t> done;
+  const vo::Walk walk = vo::read_walk(folder.path().string(), {}, [&](const vo::Progress& progress) {
+    EXPECT_EQ(progress.total, 100);
+    EXPECT_EQ(progress.stage, "reading " + folder.path().string());
+    done.push_back(progress.done);
+    return progress.done < 30;
+  });
+  vo::set_thread_count(0);
+  EXPECT_TRUE(std::ranges::is_sorted(done));
+  EXPECT_GE(walk.frames(), 30U);
+  EXPECT_LT(walk.frames(), 100U);
+  EXPECT_EQ(static_cast<std::size_t>(done.back()), walk.frames());
+  EXPECT_EQ(walk.thumbnails.size(), walk.frames());
+  EXPECT_EQ(walk.previews.size(), walk.frames());
+}
+
+TEST(ReadWalk, IsTheSameForAnyThreadCount) {
+  const TemporaryFolder folder;
+  write_walk(folder.path(), Wall(100, 1), places(0, std::vector<double>(30, 1)));
+  vo::set_thread_count(1);
+  const vo::Walk one = vo::read_walk(folder.path().string());
+  vo::set_thread_count(4);
+  const vo::Walk four = vo::read_walk(folder.path().string());
+  vo::set_thread_count(0);
+  EXPECT_EQ(one.time_s, four.time_s);
+  EXPECT_EQ(one.thumbnails.pixels, four.thumbnails.pixels);
+  EXPECT_EQ(one.previews, four.previews);
+}
+
+TEST(VisualMotion, OfASteadyWalkIsOneFramePerFrame) {
+  const Wall wall(1000, 1);
+  const auto motion = vo::visual_motion(wall.walk(places(0, std::vector<double>(599, 0.5))));
+  ASSERT_THAT(motion.displacement, SizeIs(600));
+  EXPECT_EQ(motion.displacement[0], 0);
+  EXPECT_TRUE(motion.model.learned());
+  EXPECT_THAT(motion.standing, Each(false));
+  // The least over five separations lies below the mean, and one piece of wall has more contrast than
+  // another; over 20 s that evens out to a few percent.
+  EXPECT_NEAR(mean(motion.displacement, 1, 600), 1, 0.1);
+}
+
+TEST(VisualMotion, FollowsTheSpeed) {
+  std::vector<double> speed_px(300, 0.3);
+  speed_px.insert(speed_px.end(), 300, 0.6);
+  speed_px.insert(speed_px.end(), 300, 0.3);
+  const Wall wall(600, 2);
+  const auto motion = vo::visual_motion(wall.walk(places(0, speed_px)));
+  EXPECT_THAT(motion.standing, Each(false));
+  const double slow = mean(motion.displacement, 10, 290), fast = mean(motion.displacement, 310, 590);
+  // The texture's contrast varies by some 10 percent between stretches of 100 px (12 random columns of 5).
+  EXPECT_NEAR(fast / slow, 2, 0.3);
+  EXPECT_NEAR(mean(motion.displacement, 610, 890) / slow, 1, 0.2);
+}
+
+TEST(VisualMotion, DoesNotMoveWhileTheWalkerStands) {
+  std::vector<double> speed_px(200, 0.5);
+  for (int i = 0; i < 150; ++i) speed_px.push_back(i % 2 == 0 ? 0.2 : -0.2);  // 5 s of sway
+  speed_px.insert(speed_px.end(), 200, 0.5);
+  const Wall wall(300, 3);
+  const auto motion = vo::visual_motion(wall.walk(places(0, speed_px)));
+  for (std::size_t i = 201; i <= 350; ++i) {
+    EXPECT_TRUE(motion.standing[i]) << i;
+    EXPECT_EQ(motion.displacement[i], 0) << i;
+  }
+  for (std::size_t i = 0; i < motion.standing.size(); ++i) {
+    if (!motion.standing[i]) continue;
+    // A walker who has just arrived or is about to leave has not yet left the view: views are alike for
+    // some pixels, here at 1/2 pixel per frame.
+    EXPECT_GE(i, 201U - 16);
+    EXPECT_LE(i, 350U + 16);
+  }
+  EXPECT_GT(mean(motion.displacement, 20, 180), 0.5);
+  EXPECT_GT(mean(motion.displacement, 380, 540), 0.5);
+}
+
+TEST(VisualMotion, OfTwoFramesIsOneStep) {
+  const Wall wall(500, 1);
+  const auto motion = vo::visual_motion(wall.walk(std::vector<double>{0, 300}));
+  ASSERT_THAT(motion.displacement, SizeIs(2));
+  EXPECT_EQ(motion.displacement[0], 0);
+  EXPECT_NEAR(motion.displacement[1], 1, 1e-5);  // the model's table
+}
+
+TEST(VisualMotion, RefusesAWalkWithoutMotion) {
+  const Wall wall(100, 1);
+  EXPECT_THROW_WITH(vo::visual_motion(wall.walk(std::vector<double>(100, 7.0), "still.mp4")), vo::Error,
+                    "still.mp4: shows no motion to learn from");
+  vo::Walk black = wall.walk(places(0, std::vector<double>(99, 0.5)), "black.mp4");
+  std::ranges::fill(black.thumbnails.pixels, std::uint8_t{0});
+  EXPECT_THROW_WITH(vo::visual_motion(black), vo::Error, "black.mp4: shows no motion");
+  EXPECT_THROW_WITH(vo::visual_motion(wall.walk(std::vector<double>{0}, "one.mp4")), vo::Error, "one.mp4");
+}
+
+TEST(VisualMotion, IsTheSameForAnyThreadCount) {
+  const vo::Walk walk = Wall(300, 1).walk(places(0, std::vector<double>(199, 0.5)));
+  vo::set_thread_count(1);
+  const auto one = vo::visual_motion(walk);
+  vo::set_thread_count(4);
+  const auto four = vo::visual_motion(walk);
+  vo::set_thread_count(0);
+  EXPECT_EQ(one.displacement, four.displacement);
+  EXPECT_EQ(one.standing, four.standing);
+  EXPECT_EQ(one.model.error, four.model.error);
+}
+
+}  // namespace

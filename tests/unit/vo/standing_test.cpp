@@ -1,0 +1,131 @@
+#include "support/random_images.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vo/base/parallel.hpp>
+#include <vo/base/rng.hpp>
+#include <vo/motion/alignment_error.hpp>
+#include <vo/motion/standing.hpp>
+
+namespace {
+
+using test_support::random_images;
+using testing::Each;
+using testing::IsEmpty;
+
+/// Frames at 8 Hz, whose times have no rounding in them: the default span of 2 s is 16 frames.
+std::vector<double> times(std::size_t frames) {
+  std::vector<double> time_s(frames);
+  for (std::size_t i = 0; i < frames; ++i) time_s[i] = static_cast<double>(i) / 8;
+  return time_s;
+}
+
+/// Unlike pictures throughout, but for frames [begin, end), which show one picture that sways by a few grey
+/// levels.
+vo::ImageStack walk_with_a_stop(std::size_t frames, std::size_t begin, std::size_t end) {
+  vo::ImageStack walk = random_images(16, 8, frames, 1);
+  const std::vector<std::uint8_t> view(walk[begin].begin(), walk[begin].end());
+  for (std::size_t i = begin; i < end; ++i) {
+    std::ranges::transform(view, walk[i].begin(), [&](std::uint8_t pixel) {
+      return static_cast<std::uint8_t>(std::clamp(pixel + static_cast<int>(i % 5) - 2, 0, 255));
+    });
+  }
+  return walk;
+}
+
+TEST(DistantError, WorkedExample) {
+  // Half the walk apart: |128 - 144|, |128 - 160|, |128 - 192| steps; the median is 32 steps, 2 deviations.
+  const vo::ImageStack walk{.width = 1, .height = 1, .pixels = {128, 128, 128, 144, 160, 192}};
+  EXPECT_EQ(vo::distant_error(walk), 2);
+}
+
+TEST(DistantError, OfUnrelatedNormalPicturesIsAsStated) {
+  vo::Rng rng(2);
+  vo::ImageStack walk = vo::make_image_stack(64, 32, 40);
+  for (auto& pixel : walk.pixels)
+    pixel = static_cast<std::uint8_t>(std::clamp(std::lround(128 + 16 * rng.normal()), 0L, 255L));
+  // Each of the 20 errors is a mean of 2048 terms of deviation 0.85, so deviates by 0.019; their median by
+  // less. Three of that.
+  EXPECT_NEAR(vo::distant_error(walk), 2 / std::sqrt(std::numbers::pi), 0.057);
+}
+
+TEST(DistantError, OfFewerThanTwoFramesIsZero) {
+  EXPECT_EQ(vo::distant_error(random_images(4, 4, 0, 1)), 0);
+  EXPECT_EQ(vo::distant_error(random_images(4, 4, 1, 1)), 0);
+  EXPECT_GT(vo::distant_error(random_images(4, 4, 2, 1)), 0);
+}
+
+TEST(StandingStill, IsBelowAThirdOfUnrelatedPictures) {
+  EXPECT_TRUE(vo::standing_still(0));
+  EXPECT_TRUE(vo::standing_still(0.376));  // a third of 1.1284 is 0.37613
+  EXPECT_FALSE(vo::standing_still(0.3762));
+}
+
+TEST(StandingSteps, AreThoseOfAPlantedStop) {
+  // The walker arrives at frame 40 and leaves after frame 79: the steps to 41 .. 79 are standing.
+  const auto walk = walk_with_a_stop(120, 40, 80);
+  const auto standing = vo::standing_steps(walk, times(120), vo::distant_error(walk));
+  ASSERT_EQ(standing.size(), 120U);
+  for (std::size_t i = 0; i < 120; ++i) EXPECT_EQ(standing[i], i >= 41 && i <= 79) << i;
+}
+
+TEST(StandingSteps, ReachTheEndsOfTheWalk) {
+  const auto start = walk_with_a_stop(100, 0, 40);
+  const auto at_start = vo::standing_steps(start, times(100), vo::distant_error(start));
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(at_start[i], i >= 1 && i <= 39) << i;
+  const auto end = walk_with_a_stop(100, 60, 100);
+  const auto at_end = vo::standing_steps(end, times(100), vo::distant_error(end));
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(at_end[i], i >= 61) << i;
+}
+
+TEST(StandingSteps, DoNotSeeAStopShorterThanTheSpan) {
+  const auto walk = walk_with_a_stop(120, 40, 55);  // 1.75 s
+  const double unlike = vo::distant_error(walk);
+  EXPECT_THAT(vo::standing_steps(walk, times(120), unlike), Each(false));
+  const auto shorter_span = vo::standing_steps(walk, times(120), unlike, {.span_s = 1});
+  EXPECT_EQ(std::ranges::count(shorter_span, true), 14);
+  EXPECT_THAT(vo::standing_steps(walk, times(120), unlike, {.span_s = 0}), Each(false));
+}
+
+TEST(StandingSteps, ArePassedOverWhereOnlyTheEndsOfASpanAreAlike) {
+  // The same picture every 2 s and unlike ones between, as along a fence.
+  vo::ImageStack walk = random_images(16, 8, 100, 3);
+  for (std::size_t i = 16; i < 100; i += 16) std::ranges::copy(walk[0], walk[i].begin());
+  EXPECT_THAT(vo::standing_steps(walk, times(100), vo::distant_error(walk)), Each(false));
+  // With the middle ones alike as well, a span is found; its steps count whatever lies between.
+  for (std::size_t i = 8; i < 100; i += 16) std::ranges::copy(walk[0], walk[i].begin());
+  EXPECT_EQ(std::ranges::count(vo::standing_steps(walk, times(100), vo::distant_error(walk)), true), 96);
+}
+
+TEST(StandingSteps, GoByTimeNotByFrames) {
+  // 1 Hz: a span of 2 s is 2 frames.
+  const auto walk = walk_with_a_stop(12, 4, 8);
+  std::vector<double> time_s(12);
+  for (std::size_t i = 0; i < 12; ++i) time_s[i] = static_cast<double>(i);
+  const auto standing = vo::standing_steps(walk, time_s, vo::distant_error(walk));
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(standing[i], i >= 5 && i <= 7) << i;
+}
+
+TEST(StandingSteps, OfEmptyAndMismatchedInput) {
+  EXPECT_THAT(vo::standing_steps(random_images(4, 4, 0, 1), {}, 1), IsEmpty());
+  EXPECT_THAT(vo::standing_steps(random_images(4, 4, 1, 1), times(1), 1), testing::ElementsAre(false));
+  EXPECT_THROW(vo::standing_steps(random_images(4, 4, 2, 1), times(3), 1), std::invalid_argument);
+}
+
+TEST(StandingSteps, AreTheSameForAnyThreadCount) {
+  const auto walk = walk_with_a_stop(120, 40, 80);
+  vo::set_thread_count(1);
+  const auto one = vo::standing_steps(walk, times(120), 1);
+  vo::set_thread_count(4);
+  EXPECT_EQ(vo::standing_steps(walk, times(120), 1), one);
+  vo::set_thread_count(0);
+}
+
+}  // namespace
