@@ -130,7 +130,7 @@ void add_search_options(CLI::App& app, Settings& s) {
       ->check(CLI::PositiveNumber);
   add(app, kSearch, "--search-range-rad", s.localiser.search.search_range_rad,
       "radians either side of pi/4, slopes searched [SSS 5.1]")
-      ->check(CLI::Range(0.0, 0.785));
+      ->check(CLI::Range(0.0, 0.78));
   add(app, kSearch, "--slopes", s.localiser.search.slopes,
       "slopes across the range, before equal lines are merged")
       ->check(CLI::Range(1, 10001));
