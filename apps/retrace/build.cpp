@@ -1,3 +1,5 @@
+#include "build.hpp"
+
 #include "command.hpp"
 #include "progress_bar.hpp"
 #include "route_settings.hpp"
@@ -5,6 +7,7 @@
 #include "settings.hpp"
 #include "survey.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -44,18 +47,20 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
   }
 }
 
-void put(place::Route& route, place::Traverse traverse) {
-  for (place::Traverse& old : route.traverses) {
-    if (old.name == traverse.name) {
-      old = std::move(traverse);
-      return;
-    }
+std::size_t put(place::Route& route, place::Traverse traverse) {
+  auto& all = route.traverses;
+  const auto old = std::ranges::find(all, traverse.name, &place::Traverse::name);
+  const auto index = static_cast<std::size_t>(old - all.begin());
+  if (old == all.end()) {
+    all.push_back(std::move(traverse));
+  } else {
+    *old = std::move(traverse);
   }
-  route.traverses.push_back(std::move(traverse));
+  return index;
 }
 
-void print(const BuildOptions& options, const place::Route& route, const place::Traverse& traverse,
-           const place::SampledWalk& sampled) {
+void print(const BuildOptions& options, const place::Route& route, const AddedTraverse& added) {
+  const place::Traverse& traverse = route.traverses[added.index];
   if (options.common.json) {
     const nlohmann::ordered_json json{{"route", options.output},
                                       {"traverse", traverse.name},
@@ -63,8 +68,8 @@ void print(const BuildOptions& options, const place::Route& route, const place::
                                       {"duration_s", traverse.duration_s},
                                       {"keyframes", traverse.keyframes.size()},
                                       {"traverses", route.traverses.size()},
-                                      {"sampling_unit", sampled.unit},
-                                      {"relative_scale", sampled.scale}};
+                                      {"sampling_unit", route.sampling.unit},
+                                      {"relative_scale", added.scale}};
     fmt::print("{}\n", json.dump(2));
     return;
   }
@@ -106,23 +111,28 @@ void build(const CLI::App& app, BuildOptions& options) {
   if (!options.truth.empty()) survey = survey_from_truth(options.truth, walk);
   if (!options.trajectory.empty()) survey = survey_from_trajectory(options.trajectory, walk);
 
+  const AddedTraverse added = add_traverse(route, options.name, walk, survey, settings);
+  place::write_route(options.output, route);
+  print(options, route, added);
+}
+
+}  // namespace
+
+AddedTraverse add_traverse(place::Route& route, const std::string& name, const vo::Walk& walk,
+                           const std::optional<place::Survey>& survey, const Settings& settings) {
   // A route's unit comes from its first traverse; the walk that replaces it is tied to what it was.
   const place::Traverse* reference = route.traverses.empty() ? nullptr : &route.traverses.front();
   const place::SampledWalk sampled = place::sample_walk(walk, route, reference, settings.sampling);
   for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
   if (sampled.frames.size() < 2) {
-    throw vo::Error(options.walk, "gives a single keyframe",
+    throw vo::Error(walk.source, "gives a single keyframe",
                     "a longer walk, or a smaller --sampling-n or --every");
   }
-  place::Traverse traverse = place::make_traverse(options.name, walk, sampled, survey);
+  place::Traverse traverse = place::make_traverse(name, walk, sampled, survey);
   for (const SettingEntry& entry : entries(settings)) traverse.settings[entry.name] = entry.value;
   route.sampling.unit = sampled.unit;
-  put(route, traverse);
-  place::write_route(options.output, route);
-  print(options, route, traverse, sampled);
+  return {put(route, std::move(traverse)), sampled.scale};
 }
-
-}  // namespace
 
 Command add_build(CLI::App& root) {
   auto options = std::make_shared<BuildOptions>();

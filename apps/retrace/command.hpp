@@ -17,6 +17,8 @@ Command add_build(CLI::App& root);
 Command add_localise(CLI::App& root);
 Command add_evaluate(CLI::App& root);
 Command add_inspect(CLI::App& root);
+Command add_simulate(CLI::App& root);
+Command add_demo(CLI::App& root);
 Command add_config(CLI::App& root);
 
 /// Options that most commands share.

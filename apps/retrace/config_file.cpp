@@ -73,9 +73,11 @@ std::vector<std::string> arguments_from_config(const std::string& file, const CL
     }
     // CLI11 puts the values of a repeated key together.
     if (!seen.insert(key).second || item.inputs.size() > 1) {
-      throw vo::Error(file, fmt::format("has the key '{}' twice, or several values for it", key), "one value, once");
+      throw vo::Error(file, fmt::format("has the key '{}' twice, or several values for it", key),
+                      "one value, once");
     }
-    if (item.inputs.empty()) throw vo::Error(file, fmt::format("has no value for the key '{}'", key), "one value");
+    if (item.inputs.empty())
+      throw vo::Error(file, fmt::format("has no value for the key '{}'", key), "one value");
 
     // Tried on an app of its own, so that the message names the file and the key.
     Settings scratch;

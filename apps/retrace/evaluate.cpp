@@ -1,3 +1,5 @@
+#include "evaluate.hpp"
+
 #include "command.hpp"
 #include "report/page.hpp"
 #include "run_directory.hpp"
@@ -32,12 +34,7 @@ constexpr std::string_view kCounting =
 
 struct EvaluateOptions {
   CommonOptions common;
-  std::string folder;
-  std::string pairs;
-  std::string query_truth;
-  std::string reference_truth;
-  std::optional<double> tolerance_m;
-  std::optional<double> tolerance_frames;
+  EvaluationInputs inputs;
 };
 
 /// A row of matches.csv, as far as evaluation needs it.
@@ -71,18 +68,18 @@ std::vector<MatchRow> read_matches(const fs::path& path) {
   return rows;
 }
 
-place::GroundTruth read_ground_truth(const EvaluateOptions& options) {
+place::GroundTruth read_ground_truth(const EvaluationInputs& inputs) {
   place::GroundTruth truth;
-  if (!options.reference_truth.empty())
-    truth.reference_distance_m = vo::read_truth(options.reference_truth).distance_m;
-  if (!options.pairs.empty()) {
-    truth.pairs = place::read_pairs(options.pairs);
-    if (options.tolerance_m && truth.reference_distance_m.empty()) {
+  if (!inputs.reference_truth.empty())
+    truth.reference_distance_m = vo::read_truth(inputs.reference_truth).distance_m;
+  if (!inputs.pairs.empty()) {
+    truth.pairs = place::read_pairs(inputs.pairs);
+    if (inputs.tolerance_m && truth.reference_distance_m.empty()) {
       throw vo::Error("--tolerance-m", "needs distances, which --pairs has not",
                       "--tolerance-frames, or --reference-truth beside --pairs");
     }
   } else {
-    truth.query_distance_m = vo::read_truth(options.query_truth).distance_m;
+    truth.query_distance_m = vo::read_truth(inputs.query_truth).distance_m;
   }
   return truth;
 }
@@ -209,36 +206,7 @@ std::string report(const fs::path& folder, const place::Evaluation& evaluation,
 }
 
 void evaluate(const EvaluateOptions& options) {
-  const fs::path folder = options.folder;
-  if (!fs::is_directory(folder))
-    throw vo::Error(options.folder, "is no folder", "one written by `retrace localise`");
-  prepare_run_directory(folder, {}, true);
-  const std::vector<MatchRow> rows = read_matches(folder / "matches.csv");
-  const place::GroundTruth truth = read_ground_truth(options);
-  const bool metres = options.tolerance_m.has_value();
-  const double tolerance = metres ? *options.tolerance_m : *options.tolerance_frames;
-  const std::string_view unit = metres ? "metres" : "reference frames";
-
-  std::vector<place::ScoredQuery> queries;
-  for (const MatchRow& row : rows) {
-    const place::PlaceError error =
-        place::place_error(truth, row.query_frame, row.reference_frame,
-                           metres ? place::ErrorUnit::kMetres : place::ErrorUnit::kFrames, tolerance);
-    queries.push_back({.score = row.reference_frame ? std::optional(row.score) : std::nullopt,
-                       .has_truth = error.has_truth,
-                       .error = error.error});
-  }
-  const place::Evaluation evaluation = place::evaluate(queries, tolerance);
-  if (evaluation.with_truth == 0) {
-    throw vo::Error(options.pairs.empty() ? options.query_truth : options.pairs,
-                    "gives no query keyframe a true place", "the truth of this query and this reference");
-  }
-  const place::OperatingPoint accepted = accepted_point(rows, queries, tolerance);
-  const ordered_json metrics = metrics_json(evaluation, accepted, tolerance, unit);
-  vo::write_file(folder / "metrics.json", metrics.dump(2) + "\n");
-  vo::write_file(folder / "pr.csv", pr_csv(evaluation));
-  vo::write_file(folder / "report.html", report(folder, evaluation, accepted, metrics, unit));
-
+  const auto [evaluation, accepted, unit, metrics] = evaluate_run(options.inputs);
   if (options.common.json) {
     fmt::print("{}\n", metrics.dump(2));
     return;
@@ -253,27 +221,62 @@ void evaluate(const EvaluateOptions& options) {
                evaluation.errors->p95);
   }
   fmt::print("{} query keyframes, {} with a true place, {} matched; see {}\n", evaluation.queries,
-             evaluation.with_truth, evaluation.matched, (folder / "report.html").string());
+             evaluation.with_truth, evaluation.matched,
+             (fs::path(options.inputs.folder) / "report.html").string());
 }
 
 }  // namespace
 
+EvaluatedRun evaluate_run(const EvaluationInputs& inputs) {
+  const fs::path folder = inputs.folder;
+  if (!fs::is_directory(folder))
+    throw vo::Error(inputs.folder, "is no folder", "one written by `retrace localise`");
+  prepare_run_directory(folder, {}, true);
+  const std::vector<MatchRow> rows = read_matches(folder / "matches.csv");
+  const place::GroundTruth truth = read_ground_truth(inputs);
+  const bool metres = inputs.tolerance_m.has_value();
+  const double tolerance = metres ? *inputs.tolerance_m : *inputs.tolerance_frames;
+  std::string unit = metres ? "metres" : "reference frames";
+
+  std::vector<place::ScoredQuery> queries;
+  for (const MatchRow& row : rows) {
+    const place::PlaceError error =
+        place::place_error(truth, row.query_frame, row.reference_frame,
+                           metres ? place::ErrorUnit::kMetres : place::ErrorUnit::kFrames, tolerance);
+    queries.push_back({.score = row.reference_frame ? std::optional(row.score) : std::nullopt,
+                       .has_truth = error.has_truth,
+                       .error = error.error});
+  }
+  place::Evaluation evaluation = place::evaluate(queries, tolerance);
+  if (evaluation.with_truth == 0) {
+    throw vo::Error(inputs.pairs.empty() ? inputs.query_truth : inputs.pairs,
+                    "gives no query keyframe a true place", "the truth of this query and this reference");
+  }
+  const place::OperatingPoint accepted = accepted_point(rows, queries, tolerance);
+  ordered_json metrics = metrics_json(evaluation, accepted, tolerance, unit);
+  vo::write_file(folder / "metrics.json", metrics.dump(2) + "\n");
+  vo::write_file(folder / "pr.csv", pr_csv(evaluation));
+  vo::write_file(folder / "report.html", report(folder, evaluation, accepted, metrics, unit));
+  return {std::move(evaluation), accepted, std::move(unit), std::move(metrics)};
+}
+
 Command add_evaluate(CLI::App& root) {
   auto options = std::make_shared<EvaluateOptions>();
   CLI::App* app = root.add_subcommand("evaluate", "precision, recall and errors of a run against the truth");
-  app->add_option("run", options->folder, "folder written by `retrace localise`")->required();
+  app->add_option("run", options->inputs.folder, "folder written by `retrace localise`")->required();
   auto* truth = app->add_option_group("truth", "where the query truly was");
-  truth->add_option("--pairs", options->pairs,
+  truth->add_option("--pairs", options->inputs.pairs,
                     "landmarks: query_frame,reference_frame, interpolated between them");
-  CLI::Option* query = truth->add_option("--query-truth", options->query_truth, "truth.csv of the query");
+  CLI::Option* query =
+      truth->add_option("--query-truth", options->inputs.query_truth, "truth.csv of the query");
   truth->require_option(1);
   CLI::Option* reference =
-      app->add_option("--reference-truth", options->reference_truth, "truth.csv of the reference");
+      app->add_option("--reference-truth", options->inputs.reference_truth, "truth.csv of the reference");
   query->needs(reference);
   auto* tolerance = app->add_option_group("tolerance", "how far off is still right");
-  tolerance->add_option("--tolerance-m", options->tolerance_m, "metres along the route [SSS 4.2: 4]")
+  tolerance->add_option("--tolerance-m", options->inputs.tolerance_m, "metres along the route [SSS 4.2: 4]")
       ->check(CLI::NonNegativeNumber);
-  tolerance->add_option("--tolerance-frames", options->tolerance_frames, "reference frames")
+  tolerance->add_option("--tolerance-frames", options->inputs.tolerance_frames, "reference frames")
       ->check(CLI::NonNegativeNumber);
   tolerance->require_option(1);
   add_json_option(*app, options->common);

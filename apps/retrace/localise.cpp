@@ -1,3 +1,5 @@
+#include "localise.hpp"
+
 #include "command.hpp"
 #include "progress_bar.hpp"
 #include "report/matrix_picture.hpp"
@@ -79,8 +81,9 @@ std::string matrix_csv(const place::CostMatrix& matrix) {
   return fmt::to_string(text);
 }
 
-ordered_json summary(const LocaliseOptions& options, const place::Route& route, const vo::Walk& walk,
-                     const place::SampledWalk& sampled, const place::Localisation& found) {
+ordered_json summary(const place::Route& route, const std::string& route_path, const vo::Walk& walk,
+                     const Settings& settings, const place::SampledWalk& sampled,
+                     const place::Localisation& found) {
   std::size_t matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
   for (const place::Match& match : found.matches) {
     matched += match.place ? 1 : 0;
@@ -91,14 +94,14 @@ ordered_json summary(const LocaliseOptions& options, const place::Route& route, 
   ordered_json json{{"query", walk.source},
                     {"query_frames", walk.frames()},
                     {"query_duration_s", walk.time_s.back()},
-                    {"route", options.route},
+                    {"route", route_path},
                     {"traverses", ordered_json::array()},
                     {"queries", found.matches.size()},
                     {"matched", matched},
                     {"accepted", accepted},
                     {"partial", partial},
                     {"partial_accepted", partial_accepted},
-                    {"accept_score", options.settings.localiser.acceptance_threshold},
+                    {"accept_score", settings.localiser.acceptance_threshold},
                     {"sequence_length", found.sequence_length},
                     {"lines", found.lines},
                     {"sampling_unit", sampled.unit},
@@ -163,30 +166,8 @@ void localise(const CLI::App& app, LocaliseOptions& options) {
     walk = vo::read_walk(options.walk, without_previews, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
-  const place::SampledWalk sampled =
-      place::sample_walk(walk, route, &route.traverses.front(), settings.sampling);
-  for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
-  const place::Localisation found = place::localise(route, walk, sampled, settings.localiser);
-
-  std::vector<std::vector<std::uint8_t>> pictures;
-  for (std::size_t i = 0; i < route.traverses.size(); ++i) {
-    pictures.push_back(matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name));
-  }
-  const ordered_json json = summary(options, route, walk, sampled, found);
-  vo::write_file(folder / "matches.csv", matches_csv(found.matches));
-  vo::write_file(folder / "trajectory.tum", trajectory_tum(found.matches));
-  vo::write_file(folder / "summary.json", json.dump(2) + "\n");
-  vo::write_file(folder / "config.toml", to_toml(settings));
-  vo::write_file(folder / "report.html", report(json, route, found, settings, pictures));
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
-    vo::write_file(folder / fmt::format("cost_matrix{}.png", suffix),
-                   {reinterpret_cast<const char*>(pictures[i].data()), pictures[i].size()});
-    if (!options.save_matrices) continue;
-    vo::write_file(folder / fmt::format("D{}.csv", suffix), matrix_csv(found.matrices[i].cost));
-    vo::write_file(folder / fmt::format("DD{}.csv", suffix), matrix_csv(found.matrices[i].enhanced));
-  }
-
+  const auto [found, json] =
+      localise_walk(route, options.route, walk, settings, folder, options.save_matrices);
   if (options.common.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
@@ -198,6 +179,34 @@ void localise(const CLI::App& app, LocaliseOptions& options) {
 }
 
 }  // namespace
+
+LocalisedWalk localise_walk(const place::Route& route, const std::string& route_path, const vo::Walk& walk,
+                            const Settings& settings, const fs::path& folder, bool save_matrices) {
+  const place::SampledWalk sampled =
+      place::sample_walk(walk, route, &route.traverses.front(), settings.sampling);
+  for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
+  place::Localisation found = place::localise(route, walk, sampled, settings.localiser);
+
+  std::vector<std::vector<std::uint8_t>> pictures;
+  for (std::size_t i = 0; i < route.traverses.size(); ++i) {
+    pictures.push_back(matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name));
+  }
+  ordered_json json = summary(route, route_path, walk, settings, sampled, found);
+  vo::write_file(folder / "matches.csv", matches_csv(found.matches));
+  vo::write_file(folder / "trajectory.tum", trajectory_tum(found.matches));
+  vo::write_file(folder / "summary.json", json.dump(2) + "\n");
+  vo::write_file(folder / "config.toml", to_toml(settings));
+  vo::write_file(folder / "report.html", report(json, route, found, settings, pictures));
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
+    vo::write_file(folder / fmt::format("cost_matrix{}.png", suffix),
+                   {reinterpret_cast<const char*>(pictures[i].data()), pictures[i].size()});
+    if (!save_matrices) continue;
+    vo::write_file(folder / fmt::format("D{}.csv", suffix), matrix_csv(found.matrices[i].cost));
+    vo::write_file(folder / fmt::format("DD{}.csv", suffix), matrix_csv(found.matrices[i].enhanced));
+  }
+  return {std::move(found), std::move(json)};
+}
 
 Command add_localise(CLI::App& root) {
   auto options = std::make_shared<LocaliseOptions>();

@@ -60,12 +60,14 @@ int run(int argc, char** argv) {
   root.set_help_all_flag("--help-all", "show the help of every command");
   root.require_subcommand(1);
   root.footer(
-      "Example:\n"
+      "Examples:\n"
+      "  retrace demo -o demo    (draws two walks and finds one on the other; no data needed)\n"
       "  retrace build day.mp4 -o route.db\n"
       "  retrace localise night.mp4 --route route.db -o run\n"
       "  retrace evaluate run --pairs pairs.csv --tolerance-frames 17");
-  const std::vector<retrace::Command> commands{retrace::add_build(root), retrace::add_localise(root),
+  const std::vector<retrace::Command> commands{retrace::add_build(root),    retrace::add_localise(root),
                                                retrace::add_evaluate(root), retrace::add_inspect(root),
+                                               retrace::add_simulate(root), retrace::add_demo(root),
                                                retrace::add_config(root)};
 
   std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -1,5 +1,7 @@
 #include "settings.hpp"
 
+#include "choice.hpp"
+
 #include <algorithm>
 #include <cctype>
 
@@ -20,32 +22,6 @@ CLI::Option* add(CLI::App& app, const char* group, const std::string& name, T& t
                  const std::string& description) {
   return app.add_option(name, target, description)
       ->capture_default_str()
-      ->group(group)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-}
-
-template <typename Choice>
-using Choices = std::vector<std::pair<std::string, Choice>>;
-
-/// An option whose value is one of a few names.
-template <typename Choice>
-CLI::Option* add_choice(CLI::App& app, const char* group, const std::string& name, Choice& target,
-                        const Choices<Choice>& choices, const std::string& description) {
-  std::vector<std::string> names;
-  std::string current;
-  for (const auto& [text, value] : choices) {
-    names.push_back(text);
-    if (value == target) current = text;
-  }
-  return app
-      .add_option_function<std::string>(
-          name,
-          [&target, choices](const std::string& text) {
-            target = std::ranges::find(choices, text, &Choices<Choice>::value_type::first)->second;
-          },
-          description)
-      ->default_str(current)
-      ->check(CLI::IsMember(names))
       ->group(group)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }

@@ -10,7 +10,8 @@
 
 namespace simulate {
 
-Colour hsv(double hue_deg, double saturation, double value) {
+Colour hsv(const Hsv& colour) {
+  const auto [hue_deg, saturation, value] = colour;
   const auto channel = [&](double offset) {
     const double k = std::fmod(offset + hue_deg / 60, 6.0);
     return 255 * (value - value * saturation * std::clamp(std::min(k, 4 - k), 0.0, 1.0));
@@ -86,11 +87,11 @@ void Canvas::clutter(const cv::Rect2d& area_m, int shapes, vo::Rng& rng) {
   if (area.empty()) return;
   cv::Mat view = painting_.colour(area);
   const auto inside = [&] {
-    return cv::Point(static_cast<int>(rng.index(static_cast<std::uint64_t>(area.width))),
-                     static_cast<int>(rng.index(static_cast<std::uint64_t>(area.height))));
+    return cv::Point{static_cast<int>(rng.index(static_cast<std::uint64_t>(area.width))),
+                     static_cast<int>(rng.index(static_cast<std::uint64_t>(area.height)))};
   };
   for (int i = 0; i < shapes; ++i) {
-    const Colour colour = hsv(rng.uniform(0, 360), rng.uniform(0, 0.7), rng.uniform(0.1, 0.95));
+    const Colour colour = hsv({rng.uniform(0, 360), rng.uniform(0, 0.7), rng.uniform(0.1, 0.95)});
     const cv::Point a = inside();
     const int size =
         std::max(1, static_cast<int>(rng.uniform(0.05, 0.3) * std::min(area.width, area.height)));

@@ -14,8 +14,13 @@ namespace simulate {
 /// Blue, green, red; 0 to 255.
 using Colour = cv::Scalar;
 
-/// A colour from hue (degrees), saturation and value (0 to 1).
-Colour hsv(double hue_deg, double saturation, double value);
+/// Hue in degrees, saturation and value from 0 to 1. Values in braces are worked out from left to right with
+/// every compiler, arguments are not; so whatever draws two random numbers draws them in braces or one by
+/// one.
+struct Hsv {
+  double hue_deg, saturation, value;
+};
+Colour hsv(const Hsv& colour);
 /// The colour made lighter or darker.
 Colour scaled(const Colour& colour, double by);
 /// A colour near another, each channel moved by up to `spread`.

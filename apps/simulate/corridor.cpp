@@ -25,7 +25,7 @@ void paint_door(Canvas& canvas, double x, const Colour& wall, vo::Rng& rng) {
   const double height = canvas.extent_m().height;
   const Colour colour = rng.index(3) == 0
                             ? scaled(wall, 0.8)
-                            : hsv(rng.uniform(0, 360), rng.uniform(0.1, 0.6), rng.uniform(0.3, 0.8));
+                            : hsv({rng.uniform(0, 360), rng.uniform(0.1, 0.6), rng.uniform(0.3, 0.8)});
   const cv::Rect2d door{x, height - 2.05, 0.9, 2.05};
   canvas.fill({door.x - 0.08, door.y - 0.08, 1.06, 2.13}, scaled(colour, 0.55));
   canvas.fill(door, colour);
@@ -40,7 +40,7 @@ void paint_door(Canvas& canvas, double x, const Colour& wall, vo::Rng& rng) {
 
 void paint_board(Canvas& canvas, const cv::Rect2d& board, vo::Rng& rng) {
   canvas.fill({board.x - 0.04, board.y - 0.04, board.width + 0.08, board.height + 0.08}, Colour(70, 85, 100));
-  canvas.fill(board, hsv(rng.uniform(0, 360), 0.3, 0.7));
+  canvas.fill(board, hsv({rng.uniform(0, 360), 0.3, 0.7}));
   for (std::uint64_t i = 3 + rng.index(6); i > 0; --i) {
     const cv::Rect2d sheet{board.x + rng.uniform(0, board.width * 0.75),
                            board.y + rng.uniform(0, board.height * 0.6), 0.21, 0.3};
@@ -50,7 +50,7 @@ void paint_board(Canvas& canvas, const cv::Rect2d& board, vo::Rng& rng) {
 }
 
 void paint_poster(Canvas& canvas, const cv::Rect2d& poster, vo::Rng& rng) {
-  canvas.fill(poster, hsv(rng.uniform(0, 360), rng.uniform(0, 0.6), rng.uniform(0.3, 0.95)));
+  canvas.fill(poster, hsv({rng.uniform(0, 360), rng.uniform(0, 0.6), rng.uniform(0.3, 0.95)}));
   canvas.clutter(poster, 12, rng);
   canvas.text({poster.x, poster.y, poster.width, poster.height * 0.25}, made_up_word(rng),
               Colour(25, 20, 20));
@@ -74,16 +74,16 @@ Painter wall_painter(double width_m, const WallStyle& style, std::uint64_t seed)
           break;
         case 2: {
           const double width = std::min(rng.uniform(0.9, 1.8), room - 0.3);
-          paint_board(canvas, {x, rng.uniform(0.6, 0.9), width, rng.uniform(0.6, 1.0)}, rng);
+          const cv::Rect2d board{x, rng.uniform(0.6, 0.9), width, rng.uniform(0.6, 1.0)};
+          paint_board(canvas, board, rng);
           x += width + 0.4;
           break;
         }
         case 3:
           for (std::uint64_t i = 1 + rng.index(3); i > 0; --i) {
-            paint_poster(canvas,
-                         {x + rng.uniform(0, 0.6), rng.uniform(0.5, 1.1), rng.uniform(0.3, 0.7),
-                          rng.uniform(0.4, 0.9)},
-                         rng);
+            const cv::Rect2d poster{x + rng.uniform(0, 0.6), rng.uniform(0.5, 1.1), rng.uniform(0.3, 0.7),
+                                    rng.uniform(0.4, 0.9)};
+            paint_poster(canvas, poster, rng);
           }
           x += 1.5;
           break;
@@ -101,7 +101,7 @@ Painter wall_painter(double width_m, const WallStyle& style, std::uint64_t seed)
 }
 
 WallStyle draw_style(vo::Rng& rng) {
-  const Colour wall = hsv(rng.uniform(0, 360), rng.uniform(0.02, 0.22), rng.uniform(0.72, 0.92));
+  const Colour wall = hsv({rng.uniform(0, 360), rng.uniform(0.02, 0.22), rng.uniform(0.72, 0.92)});
   return {wall, scaled(wall, rng.uniform(0.4, 0.7)), false};
 }
 
@@ -137,12 +137,14 @@ void add_side_corridor(const Leg& leg, const SideStreet& side, vo::Rng& rng, Wor
   for (double depth = 0; depth < kSideStreetDepth_m; depth += 6) {
     for (const bool on_left : {true, false}) {
       const Eigen::Vector2d nearer = at(on_left ? l : r, depth), further = at(on_left ? l : r, depth + 6);
+      const WallStyle style = draw_style(rng);
       builder.add_wall(on_left ? nearer : further, on_left ? further : nearer, 0, kHeight_m,
-                       kTexels_per_m / 3, wall_painter(6, draw_style(rng), rng.bits()));
+                       kTexels_per_m / 3, wall_painter(6, style, rng.bits()));
     }
   }
+  const WallStyle style = draw_style(rng);
   builder.add_wall(at(l, kSideStreetDepth_m), at(r, kSideStreetDepth_m), 0, kHeight_m, kTexels_per_m / 3,
-                   wall_painter(side.width_m, draw_style(rng), rng.bits()));
+                   wall_painter(side.width_m, style, rng.bits()));
 }
 
 }  // namespace
@@ -179,8 +181,9 @@ void build_corridor(const Route& route, std::uint64_t seed, WorldBuilder& builde
     const Leg& leg = at_end ? last : first;
     const double along = at_end ? leg.length_m : -12;
     const Eigen::Vector2d left = leg.at(along, -kHalfWidth_m), right = leg.at(along, kHalfWidth_m);
+    const WallStyle style = draw_style(rng);
     builder.add_wall(at_end ? left : right, at_end ? right : left, 0, kHeight_m, kTexels_per_m,
-                     wall_painter(2 * kHalfWidth_m, draw_style(rng), rng.bits()));
+                     wall_painter(2 * kHalfWidth_m, style, rng.bits()));
   }
   add_corridor_floor(route, seed, kHalfWidth_m, kHeight_m, builder);
 }

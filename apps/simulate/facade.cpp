@@ -45,10 +45,10 @@ Style draw_style(vo::Rng& rng) {
   const Tone& tone = kTones[rng.index(kTones.size())];
   Style style{};
   style.material = static_cast<Material>(rng.index(5));
-  style.wall = hsv(tone.hue + rng.uniform(0, 15), tone.saturation * rng.uniform(0.7, 1.3),
-                   std::min(1.0, tone.value * rng.uniform(0.85, 1.1)));
+  style.wall = hsv({tone.hue + rng.uniform(0, 15), tone.saturation * rng.uniform(0.7, 1.3),
+                    std::min(1.0, tone.value * rng.uniform(0.85, 1.1))});
   style.trim = rng.index(2) == 0 ? scaled(style.wall, rng.uniform(0.5, 0.75)) : Colour(225, 228, 230);
-  style.frame = hsv(rng.uniform(0, 360), rng.uniform(0, 0.5), rng.index(2) == 0 ? 0.92 : 0.3);
+  style.frame = hsv({rng.uniform(0, 360), rng.uniform(0, 0.5), rng.index(2) == 0 ? 0.92 : 0.3});
   style.floor_m = rng.uniform(2.6, 3.6);
   style.ground_floor_m = rng.uniform(2.9, 4.2);
   style.bay_m = rng.uniform(1.5, 3.4);
@@ -111,24 +111,29 @@ void paint_window(Canvas& canvas, const cv::Rect2d& window, const Style& style, 
     }
   }
   switch (rng.index(6)) {
-    case 0:  // a blind, drawn some way
-      canvas.fill({window.x, window.y, window.width, window.height * rng.uniform(0.2, 0.9)},
+    case 0: {  // a blind, drawn some way
+      const double drawn = rng.uniform(0.2, 0.9);
+      canvas.fill({window.x, window.y, window.width, window.height * drawn},
                   near(Colour(170, 190, 200), 40, rng));
       break;
-    case 1:  // curtains
-      canvas.fill({window.x, window.y, window.width * rng.uniform(0.15, 0.4), window.height},
-                  hsv(rng.uniform(0, 360), 0.4, rng.uniform(0.4, 0.9)));
+    }
+    case 1: {  // curtains
+      const double share = rng.uniform(0.15, 0.4);
+      canvas.fill({window.x, window.y, window.width * share, window.height},
+                  hsv({rng.uniform(0, 360), 0.4, rng.uniform(0.4, 0.9)}));
       canvas.fill({window.x + window.width * 0.7, window.y, window.width * 0.3, window.height},
-                  hsv(rng.uniform(0, 360), 0.4, rng.uniform(0.4, 0.9)));
+                  hsv({rng.uniform(0, 360), 0.4, rng.uniform(0.4, 0.9)}));
       break;
+    }
     case 2:  // plants and things on the sill
       canvas.clutter({window.x, window.y + window.height * 0.6, window.width, window.height * 0.4}, 6, rng);
       break;
-    case 3:  // the sky in the glass
-      canvas.line({window.x, window.y + window.height * rng.uniform(0.3, 1)},
-                  {window.x + window.width, window.y + window.height * rng.uniform(0, 0.6)}, 0.12,
-                  Colour(190, 170, 150));
+    case 3: {  // the sky in the glass
+      const cv::Point2d left{window.x, window.y + window.height * rng.uniform(0.3, 1)};
+      const cv::Point2d right{window.x + window.width, window.y + window.height * rng.uniform(0, 0.6)};
+      canvas.line(left, right, 0.12, Colour(190, 170, 150));
       break;
+    }
     default:
       break;
   }
@@ -162,13 +167,13 @@ void paint_windows(Canvas& canvas, const Style& style, double omit_share, vo::Rn
 void paint_sign(Canvas& canvas, const cv::Rect2d& area, vo::Rng& rng) {
   const double hue = rng.uniform(0, 360);
   const bool dark = rng.index(2) == 0;
-  canvas.fill(area, hsv(hue, rng.uniform(0.3, 0.9), dark ? 0.35 : 0.9));
+  canvas.fill(area, hsv({hue, rng.uniform(0.3, 0.9), dark ? 0.35 : 0.9}));
   canvas.text(area, made_up_word(rng), dark ? Colour(235, 240, 240) : Colour(30, 25, 20));
   if (rng.index(2) == 0) canvas.glow(area, Colour(120, 150, 170) * rng.uniform(0.5, 1.0));
 }
 
 void paint_shop(Canvas& canvas, const cv::Rect2d& area, const Style& style, vo::Rng& rng) {
-  const Colour frame = hsv(rng.uniform(0, 360), rng.uniform(0.2, 0.8), rng.uniform(0.25, 0.7));
+  const Colour frame = hsv({rng.uniform(0, 360), rng.uniform(0.2, 0.8), rng.uniform(0.25, 0.7)});
   canvas.fill(area, frame);
   const double sign_m = 0.6;
   paint_sign(canvas, {area.x + 0.1, area.y + 0.08, area.width - 0.2, sign_m}, rng);
@@ -182,7 +187,7 @@ void paint_shop(Canvas& canvas, const cv::Rect2d& area, const Style& style, vo::
   canvas.fill(door, scaled(frame, 0.6));
   canvas.fill({door.x + 0.12, door.y + 0.15, 0.66, door.height - 0.5}, near(Colour(90, 80, 75), 15, rng));
   if (rng.index(2) == 0) {  // a striped awning over the window
-    const Colour stripe = hsv(rng.uniform(0, 360), 0.7, 0.75);
+    const Colour stripe = hsv({rng.uniform(0, 360), 0.7, 0.75});
     int i = 0;
     for (double x = area.x; x < window.br().x; x += 0.3) {
       canvas.fill({x, window.y - 0.1, 0.3, 0.5}, ++i % 2 == 0 ? stripe : Colour(225, 230, 230));
@@ -193,7 +198,7 @@ void paint_shop(Canvas& canvas, const cv::Rect2d& area, const Style& style, vo::
 }
 
 void paint_door(Canvas& canvas, const cv::Rect2d& area, const Style& style, vo::Rng& rng) {
-  const Colour colour = hsv(rng.uniform(0, 360), rng.uniform(0.3, 0.8), rng.uniform(0.2, 0.7));
+  const Colour colour = hsv({rng.uniform(0, 360), rng.uniform(0.3, 0.8), rng.uniform(0.2, 0.7)});
   const cv::Rect2d door{area.x + area.width / 2 - 0.5, area.br().y - 2.2, 1.0, 2.2};
   canvas.fill({door.x - 0.15, door.y - 0.2, 1.3, 2.4}, style.trim);
   canvas.fill(door, colour);
@@ -244,21 +249,20 @@ void paint_fittings(Canvas& canvas, const Style& style, vo::Rng& rng) {
   }
   if (rng.index(3) == 0) {
     const double x = rng.uniform(0, extent.width * 0.5);
-    paint_sign(canvas,
-               {x, extent.height - style.ground_floor_m - 0.9, extent.width * rng.uniform(0.25, 0.45), 0.7},
-               rng);
+    const double width = extent.width * rng.uniform(0.25, 0.45);
+    paint_sign(canvas, {x, extent.height - style.ground_floor_m - 0.9, width, 0.7}, rng);
   }
   for (std::uint64_t i = rng.index(4); i > 0; --i) {
     const cv::Rect2d poster{extent.width * rng.uniform(0, 0.85), extent.height - rng.uniform(1.3, 2.2),
                             rng.uniform(0.4, 0.9), rng.uniform(0.5, 1.0)};
-    canvas.fill(poster, hsv(rng.uniform(0, 360), rng.uniform(0, 0.6), rng.uniform(0.5, 0.95)));
+    canvas.fill(poster, hsv({rng.uniform(0, 360), rng.uniform(0, 0.6), rng.uniform(0.5, 0.95)}));
     canvas.clutter(poster, 9, rng);
   }
   if (rng.index(4) == 0) {
-    const Colour paint = hsv(rng.uniform(0, 360), 0.8, rng.uniform(0.2, 0.9));
+    const Colour paint = hsv({rng.uniform(0, 360), 0.8, rng.uniform(0.2, 0.9)});
     cv::Point2d at{extent.width * rng.uniform(0.05, 0.95), extent.height - rng.uniform(0.5, 1.6)};
     for (int i = 0; i < 12; ++i) {
-      const cv::Point2d to = at + cv::Point2d(rng.uniform(-0.2, 0.4), rng.uniform(-0.4, 0.4));
+      const cv::Point2d to = at + cv::Point2d{rng.uniform(-0.2, 0.4), rng.uniform(-0.4, 0.4)};
       canvas.line(at, to, 0.06, paint);
       at = to;
     }

@@ -27,7 +27,7 @@ Painter plain_painter(const Colour& colour, double stains, std::uint64_t seed) {
 Painter foliage_painter(cv::Size2d extent_m, double hue, std::uint64_t seed) {
   return [=](cv::Size texels) {
     vo::Rng rng(seed);
-    Canvas canvas(texels, extent_m, hsv(hue, 0.5, 0.3));
+    Canvas canvas(texels, extent_m, hsv({hue, 0.5, 0.3}));
     Painting& painting = canvas.painting();
     painting.alpha = cv::Mat1b::zeros(texels);
     const double leaf = kTexels_per_m * 0.09;
@@ -36,12 +36,12 @@ Painter foliage_painter(cv::Size2d extent_m, double hue, std::uint64_t seed) {
       const double angle = rng.uniform(0, 2 * std::numbers::pi), radius = std::sqrt(rng.uniform());
       const double x = 0.5 + 0.44 * radius * std::cos(angle), y = 0.5 + 0.44 * radius * std::sin(angle);
       const cv::Point at(static_cast<int>(x * texels.width), static_cast<int>(y * texels.height));
-      const cv::Size size(1 + static_cast<int>(leaf * rng.uniform(0.4, 1.8)),
-                          1 + static_cast<int>(leaf * rng.uniform(0.4, 1.5)));
+      const cv::Size size{1 + static_cast<int>(leaf * rng.uniform(0.4, 1.8)),
+                          1 + static_cast<int>(leaf * rng.uniform(0.4, 1.5))};
       const double value = (0.62 - 0.34 * y) * rng.uniform(0.55, 1.35);
       const double turn_deg = rng.uniform(0, 180);
       cv::ellipse(painting.colour, at, size, turn_deg, 0, 360,
-                  hsv(hue + rng.uniform(-18, 18), rng.uniform(0.35, 0.7), value), cv::FILLED, cv::LINE_AA);
+                  hsv({hue + rng.uniform(-18, 18), rng.uniform(0.35, 0.7), value}), cv::FILLED, cv::LINE_AA);
       cv::ellipse(painting.alpha, at, size, turn_deg, 0, 360, 255, cv::FILLED);
     }
     return painting;
@@ -123,11 +123,12 @@ void add_painted_box(const WorldBuilder::Box& box, const Colour& colour, int sha
 
 }  // namespace
 
-void add_tree(const vo::Pose2& pose, double crown_radius_m, double trunk_m, std::uint64_t seed,
-              WorldBuilder& builder) {
+void add_tree(const vo::Pose2& pose, const TreeSize& size, std::uint64_t seed, WorldBuilder& builder) {
+  const auto [crown_radius_m, trunk_m] = size;
   vo::Rng rng(seed);
   const double thickness = rng.uniform(0.16, 0.3);
-  const Painter bark = plain_painter(near(Colour(60, 75, 90), 20, rng), 0.35, rng.bits());
+  const Colour brown = near(Colour(60, 75, 90), 20, rng);
+  const Painter bark = plain_painter(brown, 0.35, rng.bits());
   builder.add_box({pose, thickness, thickness, 0, trunk_m + 0.6 * crown_radius_m}, kTexels_per_m,
                   [&](WorldBuilder::Face) { return bark; });
   add_foliage(pose, crown_radius_m, trunk_m, trunk_m + 2.2 * crown_radius_m, rng, builder);
@@ -136,8 +137,8 @@ void add_tree(const vo::Pose2& pose, double crown_radius_m, double trunk_m, std:
 void add_car(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& builder) {
   vo::Rng rng(seed);
   const Colour body =
-      hsv(rng.uniform(0, 360), rng.index(2) == 0 ? rng.uniform(0, 0.15) : rng.uniform(0.3, 0.65),
-          rng.uniform(0.2, 0.9));
+      hsv({rng.uniform(0, 360), rng.index(2) == 0 ? rng.uniform(0, 0.15) : rng.uniform(0.3, 0.65),
+           rng.uniform(0.2, 0.9)});
   const bool van = rng.index(6) == 0;
   const double length = rng.uniform(3.7, 4.7), width = rng.uniform(1.65, 1.8), waist = rng.uniform(0.8, 0.95);
   const double roof = van ? rng.uniform(1.9, 2.2) : rng.uniform(1.38, 1.5);
@@ -169,7 +170,7 @@ void add_street_lamp(const vo::Pose2& pose, double height_m, const cv::Vec3f& bg
 
 void add_street_thing(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& builder) {
   vo::Rng rng(seed);
-  const Colour colour = hsv(rng.uniform(0, 360), rng.uniform(0.1, 0.8), rng.uniform(0.25, 0.85));
+  const Colour colour = hsv({rng.uniform(0, 360), rng.uniform(0.1, 0.8), rng.uniform(0.25, 0.85)});
   switch (rng.index(5)) {
     case 0:
       add_painted_box({pose, 0.45, 0.45, 0, 0.95}, colour, 4, true, rng, builder);
@@ -196,12 +197,13 @@ void add_street_thing(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& b
 
 void add_corridor_thing(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& builder) {
   vo::Rng rng(seed);
-  const Colour colour = hsv(rng.uniform(0, 360), rng.uniform(0, 0.4), rng.uniform(0.35, 0.85));
+  const Colour colour = hsv({rng.uniform(0, 360), rng.uniform(0, 0.4), rng.uniform(0.35, 0.85)});
   switch (rng.index(4)) {
-    case 0:
-      add_painted_box({pose, rng.uniform(0.6, 1.4), 0.35, 0, rng.uniform(1.2, 1.9)}, colour, 3, false, rng,
-                      builder);
+    case 0: {
+      const WorldBuilder::Box cupboard{pose, rng.uniform(0.6, 1.4), 0.35, 0, rng.uniform(1.2, 1.9)};
+      add_painted_box(cupboard, colour, 3, false, rng, builder);
       break;
+    }
     case 1:
       add_painted_box({pose, 0.35, 0.35, 0, 0.6}, colour, 1, true, rng, builder);
       break;
@@ -217,11 +219,12 @@ void add_corridor_thing(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder&
 
 void add_garden(const vo::Pose2& pose, double width_m, std::uint64_t seed, WorldBuilder& builder) {
   vo::Rng rng(seed);
-  const Painter hedge = plain_painter(hsv(rng.uniform(80, 120), 0.5, 0.35), 0.5, rng.bits());
+  const Colour green = hsv({rng.uniform(80, 120), 0.5, 0.35});
+  const Painter hedge = plain_painter(green, 0.5, rng.bits());
   builder.add_box({pose, width_m, 0.6, 0, rng.uniform(0.7, 1.4)}, kTexels_per_m,
                   [&](WorldBuilder::Face) { return hedge; });
-  add_tree({pose.x_m, pose.y_m, pose.heading_rad}, rng.uniform(1.2, 2.2), rng.uniform(1.2, 2.2), rng.bits(),
-           builder);
+  const TreeSize size{rng.uniform(1.2, 2.2), rng.uniform(1.2, 2.2)};
+  add_tree(pose, size, rng.bits(), builder);
 }
 
 }  // namespace simulate

@@ -8,9 +8,12 @@
 
 namespace simulate {
 
+struct TreeSize {
+  double crown_radius_m, trunk_m;
+};
+
 /// Things that stand about; each seed is another one. Poses are of their middle on the ground.
-void add_tree(const vo::Pose2& pose, double crown_radius_m, double trunk_m, std::uint64_t seed,
-              WorldBuilder& builder);
+void add_tree(const vo::Pose2& pose, const TreeSize& size, std::uint64_t seed, WorldBuilder& builder);
 void add_car(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& builder);
 /// A lamp post; also a source of light.
 void add_street_lamp(const vo::Pose2& pose, double height_m, const cv::Vec3f& bgr, std::uint64_t seed,

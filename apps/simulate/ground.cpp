@@ -145,7 +145,7 @@ cv::Vec3f tone(std::uint32_t id, std::uint32_t seed, std::uint32_t salt) {
   const auto u = [&](std::int32_t k) {
     return lattice_uniform(static_cast<std::int32_t>(id), k, seed + salt);
   };
-  const Colour c = hsv(20 + 40 * u(0), 0.04 + 0.18 * u(1), 0.48 + 0.25 * u(2));
+  const Colour c = hsv({20 + 40 * u(0), 0.04 + 0.18 * u(1), 0.48 + 0.25 * u(2)});
   return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
 }
 

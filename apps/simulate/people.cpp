@@ -64,7 +64,7 @@ Painting paint_figure(const Clothes& clothes, double swing) {
 Passer draw_passer(bool night, vo::Rng& rng) {
   const auto any = [&](double saturation, double value) {
     const double hue = rng.uniform(0, 360);
-    return hsv(hue, saturation * rng.uniform(), value * rng.uniform(0.3, 1));
+    return hsv({hue, saturation * rng.uniform(), value * rng.uniform(0.3, 1)});
   };
   Clothes clothes{};
   clothes.skin = scaled(Colour(140, 170, 225), rng.uniform(0.4, 1));

@@ -20,7 +20,7 @@ struct Recording {
 /// Each file is written under a temporary name and renamed when it is whole. A progress callback that returns
 /// false ends the walk early; what was drawn is kept. Throws `vo::Error` if an option is out of range, if one
 /// of the files exists and `overwrite` is false, or if they cannot be written. Two cores draw some 100 frames
-/// of 640x360 a second by day and a third of that by night.
+/// of 640x360 a second by day and less than half of that by night.
 Recording simulate_walk(const Options& options, const std::filesystem::path& directory, bool overwrite,
                         const vo::ProgressCallback& progress = {});
 

@@ -33,7 +33,7 @@ Exposure exposure_for(Condition condition) {
     case Condition::kDay:
       return {1 / 500.0, 1, 1.2};
     case Condition::kNight:
-      return {1 / 30.0, 4, 4.5};
+      return {1 / 30.0, 3, 4.5};
     case Condition::kRain:
       return {1 / 100.0, 1, 2.0};
   }

@@ -90,14 +90,16 @@ void add_side_street(const Leg& leg, const SideStreet& street, double offset_m, 
 void add_furniture(const Leg& leg, int near_side, vo::Rng rng, WorldBuilder& builder) {
   const double s = near_side;
   for (double at = rng.uniform(2, 8); at < leg.length_m - 2; at += rng.uniform(16, 24)) {
-    add_street_lamp(leg.pose(at, -1.75 * s), kLampHeight_m, kSodium * rng.uniform(0.75, 1.25), rng.bits(),
-                    builder);
+    const cv::Vec3f bgr = kSodium * rng.uniform(0.75, 1.25);
+    add_street_lamp(leg.pose(at, -1.75 * s), kLampHeight_m, bgr, rng.bits(), builder);
   }
   for (double at = rng.uniform(1, 10); at < leg.length_m - 1; at += rng.uniform(6, 18)) {
-    add_tree(leg.pose(at, -1.7 * s), rng.uniform(1.1, 1.9), rng.uniform(2.0, 2.6), rng.bits(), builder);
+    const TreeSize size{rng.uniform(1.1, 1.9), rng.uniform(2.0, 2.6)};
+    add_tree(leg.pose(at, -1.7 * s), size, rng.bits(), builder);
   }
   for (double at = rng.uniform(0, 12); at < leg.length_m; at += rng.uniform(7, 22)) {
-    add_tree(leg.pose(at, -10.4 * s), rng.uniform(1.3, 2.4), rng.uniform(2.0, 3.0), rng.bits(), builder);
+    const TreeSize size{rng.uniform(1.3, 2.4), rng.uniform(2.0, 3.0)};
+    add_tree(leg.pose(at, -10.4 * s), size, rng.bits(), builder);
   }
   for (double at = rng.uniform(0, 8); at < leg.length_m - 3; at += rng.uniform(5.2, 16)) {
     add_car(leg.pose(at, -3.3 * s), rng.bits(), builder);
@@ -106,7 +108,8 @@ void add_furniture(const Leg& leg, int near_side, vo::Rng rng, WorldBuilder& bui
     add_car(leg.pose(at, -7.9 * s), rng.bits(), builder);
   }
   for (double at = rng.uniform(2, 9); at < leg.length_m - 1; at += rng.uniform(5, 15)) {
-    add_street_thing(leg.pose(at, (rng.index(2) == 0 ? -1.55 : 2.3) * s), rng.bits(), builder);
+    const double right_m = rng.index(2) == 0 ? -1.55 : 2.3;
+    add_street_thing(leg.pose(at, right_m * s), rng.bits(), builder);
   }
 }
 

@@ -147,13 +147,15 @@ bool SequenceSearchOptions::is_valid(std::string* reason) const {
   };
   if (length < 1) return invalid(fmt::format("sequence length is {}; at least 1 expected", length));
   if (!(search_range_rad >= 0 && search_range_rad <= kLargestRangeRad)) {
-    return invalid(fmt::format("search range is {} rad; 0 <= range <= {} expected", search_range_rad, kLargestRangeRad));
+    return invalid(
+        fmt::format("search range is {} rad; 0 <= range <= {} expected", search_range_rad, kLargestRangeRad));
   }
   if (slopes < 1) return invalid(fmt::format("slopes is {}; at least 1 expected", slopes));
   if (v_min.has_value() != v_max.has_value())
     return invalid("v_min and v_max go together; both or neither expected");
   if (v_min && !(*v_min > 0 && *v_min <= *v_max && *v_max <= kLargestSlope)) {
-    return invalid(fmt::format("velocities are {}..{}; 0 < v_min <= v_max <= {} expected", *v_min, *v_max, kLargestSlope));
+    return invalid(fmt::format("velocities are {}..{}; 0 < v_min <= v_max <= {} expected", *v_min, *v_max,
+                               kLargestSlope));
   }
   if (!(min_fraction > 0 && min_fraction <= 1)) {
     return invalid(fmt::format("min fraction is {}; 0 < fraction <= 1 expected", min_fraction));

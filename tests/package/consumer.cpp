@@ -12,6 +12,7 @@ int main() {
   const place::CostMatrix cost = place::cost_matrix(descriptors, descriptors);
   const std::vector<double> displacement(10, 1.0);
   const bool right = cost.at(0, 0) == 0 && place::resample(displacement, 3).size() == 4;
-  std::printf("retrace %.*s: %s\n", static_cast<int>(place::kVersion.size()), place::kVersion.data(), right ? "ok" : "WRONG");
+  std::printf("retrace %.*s: %s\n", static_cast<int>(place::kVersion.size()), place::kVersion.data(),
+              right ? "ok" : "WRONG");
   return right ? 0 : 1;
 }

@@ -9,8 +9,6 @@
 namespace retrace {
 namespace {
 
-constexpr int kSidePx = 900;  // of the longer side, about
-
 /// The least cost of each block of `shrink` x `shrink` cells; reference upwards, query to the right.
 cv::Mat shrunk(const place::CostMatrix& matrix, std::size_t shrink) {
   const auto rows = static_cast<int>((matrix.references + shrink - 1) / shrink);
@@ -42,10 +40,11 @@ cv::Mat as_grey(const cv::Mat& costs) {
 
 std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
                                          const std::vector<place::Match>& matches,
-                                         const std::string& traverse) {
+                                         const std::string& traverse, int side_px) {
   const std::size_t longer = std::max({enhanced.queries, enhanced.references, std::size_t{1}});
-  const std::size_t shrink = (longer + kSidePx - 1) / kSidePx;
-  const int enlarge = std::max(1, kSidePx / static_cast<int>((longer + shrink - 1) / shrink));
+  const std::size_t shrink =
+      (longer + static_cast<std::size_t>(side_px) - 1) / static_cast<std::size_t>(side_px);
+  const int enlarge = std::max(1, side_px / static_cast<int>((longer + shrink - 1) / shrink));
   cv::Mat picture;
   cv::resize(as_grey(shrunk(enhanced, shrink)), picture, {}, enlarge, enlarge, cv::INTER_NEAREST);
   cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);

@@ -30,8 +30,9 @@ inline constexpr int kNeutralByte = 128;
 inline constexpr double kStepsPerDeviation = 16;
 
 /// Patch normalisation, SSS Eq. 2: I' = (I - mean_p) / max(sd_p, floor), with population deviations and
-/// floor = max(min_deviation, min_contrast * median sd of the grid's cells). SSS has no floor: a patch of sky or plain wall
-/// is then noise blown up to full contrast, as heavy in every difference as a patch with a window in it.
+/// floor = max(min_deviation, min_contrast * median sd of the grid's cells). SSS has no floor: a patch of sky
+/// or plain wall is then noise blown up to full contrast, as heavy in every difference as a patch with a
+/// window in it.
 ///
 /// `image`: width * height grey bytes, row-major. `out`: as many values, in deviations; a patch without
 /// texture is all 0. Throws `std::invalid_argument` if sizes disagree, patch_px < 2, or (kGrid) a side is no

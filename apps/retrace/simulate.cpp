@@ -1,0 +1,103 @@
+#include "choice.hpp"
+#include "command.hpp"
+#include "progress_bar.hpp"
+#include "settings.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <simulate/recorder.hpp>
+#include <vo/base/parallel.hpp>
+
+namespace retrace {
+namespace {
+
+struct SimulateOptions {
+  simulate::Options walk;
+  Settings settings;
+  CommonOptions common;
+  std::string output;
+};
+
+void simulate_walk(const SimulateOptions& options) {
+  vo::set_thread_count(options.settings.threads);
+  const std::filesystem::path folder = options.output;
+  simulate::Recording recording;
+  {
+    ProgressBar bar;
+    recording = simulate::simulate_walk(options.walk, folder, options.common.force, bar.callback());
+  }
+  const std::string video = (folder / "walk.mp4").string(), truth = (folder / "truth.csv").string();
+  const simulate::TruthRow& last = recording.last;
+  const double walked_m = last.distance_m - options.walk.start_m;
+  if (options.common.json) {
+    const nlohmann::ordered_json json{{"video", video},
+                                      {"truth", truth},
+                                      {"frames", recording.frames},
+                                      {"duration_s", last.time_s},
+                                      {"distance_m", walked_m},
+                                      {"steps", last.steps}};
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}: {} frames, {:.1f} s, {:.1f} m along the route, {} steps; the truth is in {}\n", video,
+               recording.frames, last.time_s, walked_m, last.steps, truth);
+  }
+}
+
+/// A number with its default shown; its range is checked by the simulator, which knows the scene.
+template <typename T>
+void add(CLI::App& app, const char* group, const char* name, T& target, const char* description) {
+  app.add_option(name, target, description)->capture_default_str()->group(group);
+}
+
+void add_walk_options(CLI::App& app, simulate::Options& walk) {
+  using simulate::Condition, simulate::Scene, simulate::Speed;
+  constexpr const char *kRoute = "Route", *kWalker = "Walker", *kCamera = "Camera";
+  add_choice(app, kRoute, "--scene", walk.scene, {{"street", Scene::kStreet}, {"corridor", Scene::kCorridor}},
+             "what is walked along");
+  add(app, kRoute, "--length-m", walk.length_m, "metres of route; a longer one begins with the shorter one");
+  add(app, kRoute, "--seed", walk.seed, "the route and everything along it");
+  add_choice(app, kRoute, "--condition", walk.condition,
+             {{"day", Condition::kDay}, {"night", Condition::kNight}, {"rain", Condition::kRain}},
+             "light and weather");
+  add_choice(app, kWalker, "--speed", walk.speed,
+             {{"steady", Speed::kSteady},
+              {"slow-fast", Speed::kSlowFast},
+              {"fast-slow", Speed::kFastSlow},
+              {"varied", Speed::kVaried},
+              {"stops", Speed::kStops},
+              {"run", Speed::kRun}},
+             "how the pace changes on the way");
+  add(app, kWalker, "--gait-seed", walk.gait_seed, "the walker, varied speeds, passers-by and sensor noise");
+  add(app, kWalker, "--lateral-m", walk.lateral_m, "metres right of the route, left if negative");
+  add(app, kWalker, "--detour-m", walk.detour_m, "metres walked in all into a side street, and back");
+  add(app, kWalker, "--start-m", walk.start_m, "metres along the route where the walk begins");
+  add(app, kWalker, "--people", walk.people, "passers-by met");
+  add(app, kCamera, "--fov-deg", walk.fov_deg, "degrees from left to right [PVO 5.3]");
+  add(app, kCamera, "--frame-rate-hz", walk.frame_rate_hz, "frames per second [PVO 5.1]");
+  add(app, kCamera, "--width", walk.size.width, "pixels [PVO 5.1]");
+  add(app, kCamera, "--height", walk.size.height, "pixels [PVO 5.1]");
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& root) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* app = root.add_subcommand("simulate", "draw the video of a walk, and its truth at every frame");
+  app->add_option("-o,--output", options->output, "folder for walk.mp4 and truth.csv")->required();
+  add_walk_options(*app, options->walk);
+  add_general_options(*app, options->settings);
+  add_force_option(*app, options->common);
+  add_json_option(*app, options->common);
+  app->footer(
+      "Two walks of one --scene and --seed are along the same route. Equal options give equal bytes.\n"
+      "Examples:\n"
+      "  retrace simulate --speed slow-fast -o day\n"
+      "  retrace simulate --condition night --speed fast-slow --gait-seed 2 --lateral-m 0.25 -o night");
+  return {app, [options] { simulate_walk(*options); }};
+}
+
+}  // namespace retrace
