@@ -39,6 +39,10 @@ double relative_scale(const vo::ImageStack& query, const vo::ImageStack& referen
   for (int i = 0; i < options.steps; ++i)
     cost.push_back(mean_best_cost(enhanced, std::exp(log_scale(i)), options.length));
 
+  for (std::ptrdiff_t i = 0; i < options.steps; ++i) {
+    cost[static_cast<std::size_t>(i)] += options.prior_weight * log_scale(i) * log_scale(i);
+  }
+
   // Slopes that round to the same line cost the same: the middle of the cheapest stretch.
   const auto first = std::ranges::min_element(cost);
   const auto last = std::find_if(first, cost.end(), [&](double c) { return c != *first; }) - 1;

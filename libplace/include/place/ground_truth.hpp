@@ -44,7 +44,7 @@ struct PlaceError {
 /// Compares one match with the truth. With distances, a query has a true place if the reference comes within
 /// `tolerance` of its distance; the error in frames is to the nearest reference frame at that distance (a
 /// walker who stands still is there for many). Throws `vo::Error` if a frame is outside the truth,
-/// `std::invalid_argument` if the truth given cannot tell errors in `unit`. O(log frames).
+/// `std::invalid_argument` if the truth given cannot tell errors in `unit`. O(frames).
 PlaceError place_error(const GroundTruth& truth, std::int64_t query_frame,
                        std::optional<std::int64_t> reference_frame, ErrorUnit unit, double tolerance);
 

@@ -10,6 +10,9 @@ struct RelativeScaleOptions {
       4;  ///< scales 1 / largest .. largest are tried; a walk is seldom four times as fast as another
   int steps = 97;   ///< scales tried, evenly spaced in their logarithm
   int length = 10;  ///< keyframes on a line
+  /// Deviations of cost a scale must gain for every squared unit of its logarithm: where the matrix hardly
+  /// tells, the walks are taken to be of like speed.
+  double prior_weight = 0.1;
 };
 
 /// How far one query keyframe step reaches, in reference keyframe steps, found by matching alone.
