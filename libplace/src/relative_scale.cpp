@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <vector>
 
@@ -39,13 +40,16 @@ double relative_scale(const vo::ImageStack& query, const vo::ImageStack& referen
   for (int i = 0; i < options.steps; ++i)
     cost.push_back(mean_best_cost(enhanced, std::exp(log_scale(i)), options.length));
 
-  for (std::ptrdiff_t i = 0; i < options.steps; ++i) {
-    cost[static_cast<std::size_t>(i)] += options.prior_weight * log_scale(i) * log_scale(i);
+  std::vector<double> judged = cost;
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const double away = log_scale(static_cast<std::ptrdiff_t>(i));
+    judged[i] += options.prior_weight * away * away;
   }
-
-  // Slopes that round to the same line cost the same: the middle of the cheapest stretch.
-  const auto first = std::ranges::min_element(cost);
-  const auto last = std::find_if(first, cost.end(), [&](double c) { return c != *first; }) - 1;
+  // Slopes that round to the same line cost the same: the middle of the stretch that the best one lies in.
+  const auto best = cost.begin() + (std::ranges::min_element(judged) - judged.begin());
+  const auto differs = [&](double c) { return c != *best; };
+  const auto last = std::find_if(best, cost.end(), differs) - 1;
+  const auto first = std::find_if(std::make_reverse_iterator(best), cost.rend(), differs).base();
   return std::exp((log_scale(first - cost.begin()) + log_scale(last - cost.begin())) / 2);
 }
 
