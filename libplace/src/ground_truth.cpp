@@ -32,7 +32,7 @@ double interpolated(const std::vector<double>& by_frame, double frame) {
 
 /// Frames between `frame` and the nearest at which a walk of non-decreasing distance is at `distance_m`.
 double frames_from_distance(const std::vector<double>& by_frame, double frame, double distance_m) {
-  const auto [first, last] = std::ranges::equal_range(by_frame, distance_m);
+  const auto [first, last] = std::equal_range(by_frame.begin(), by_frame.end(), distance_m);
   double begin = static_cast<double>(first - by_frame.begin());
   double end = static_cast<double>(last - by_frame.begin()) - 1;
   if (first == last) {  // between two frames, or past an end
