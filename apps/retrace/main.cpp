@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -102,6 +103,7 @@ int main(int argc, char** argv) {
   // FFmpeg and OpenCV print to stderr on their own; what matters of it reaches the user through our messages.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::setNumThreads(1);  // frames are spread over threads, so what is done within one is not
   spdlog::set_default_logger(spdlog::stderr_logger_st("retrace"));
   spdlog::set_pattern("retrace: %l: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then is a failed write with its reason, not a kill

@@ -44,6 +44,21 @@ TEST(ParallelFor, RethrowsAndKeepsNestedCallsWorking) {
   EXPECT_THROW(vo::set_thread_count(-1), std::invalid_argument);
 }
 
+TEST(ParallelInvoke, RunsBothAndSharesItsThreads) {
+  for (const int threads : {1, 2}) {
+    vo::set_thread_count(threads);
+    int first = 0;
+    std::vector<int> second(100, 0);
+    vo::parallel_invoke([&] { first = 1; },
+                        [&] { vo::parallel_for(second.size(), [&](std::size_t i) { ++second[i]; }); });
+    EXPECT_EQ(first, 1);
+    EXPECT_THAT(second, testing::Each(1));
+  }
+  vo::set_thread_count(0);
+  EXPECT_THROW(vo::parallel_invoke([] { throw std::runtime_error("first"); }, [] {}), std::runtime_error);
+  EXPECT_THROW(vo::parallel_invoke([] {}, [] { throw std::runtime_error("second"); }), std::runtime_error);
+}
+
 TEST(Rng, MatchesThePublishedSequence) {
   // First outputs of the reference SplitMix64 for seed 1234567.
   vo::Rng rng(1234567);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
@@ -22,6 +23,32 @@ TEST(Thumbnail, AveragesEqualAreas) {
   std::vector<std::uint8_t> thumbnail(2);
   vo::make_thumbnail(image, {.width = 2, .height = 1}, thumbnail);
   EXPECT_THAT(thumbnail, ElementsAre(15, 101));
+}
+
+TEST(Thumbnail, WeighsPixelsByTheAreaCovered) {
+  // Cells of 1.5 x 1.5 pixels: (4 whole pixels' weights 1, .5, .5, .25 of the corner) / 2.25.
+  const cv::Mat image = (cv::Mat_<uchar>(3, 3) << 0, 90, 180, 9, 90, 0, 45, 0, 90);
+  std::vector<std::uint8_t> thumbnail(4);
+  vo::make_thumbnail(image, {.width = 2, .height = 2}, thumbnail);
+  EXPECT_THAT(thumbnail, ElementsAre(32, 110, 32, 50));
+}
+
+TEST(Thumbnail, IsOpenCvsAreaResize) {
+  vo::Rng rng(5);
+  for (const cv::Size size : {cv::Size(640, 360), cv::Size(161, 97), cv::Size(64, 32), cv::Size(848, 480)}) {
+    cv::Mat image(size, CV_8UC1);
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) image.at<uchar>(y, x) = static_cast<uchar>(rng.index(256));
+    }
+    cv::Mat expected;
+    cv::resize(image, expected, {64, 32}, 0, 0, cv::INTER_AREA);
+    std::vector<std::uint8_t> thumbnail(64 * 32);
+    vo::make_thumbnail(image, {}, thumbnail);
+    for (std::size_t k = 0; k < thumbnail.size(); ++k) {
+      // Its sums are in single precision and half a grey level rounds to even: one level apart at most.
+      ASSERT_NEAR(thumbnail[k], expected.data[k], 1) << size << " at " << k;
+    }
+  }
 }
 
 TEST(Thumbnail, KeepsGreyAsItIsAndTakesColour) {

@@ -14,9 +14,17 @@ int thread_count();
 /// Calls `body(i)` for every i in [0, count), spread over `thread_count()` threads in no particular order.
 ///
 /// Each index must write only to places of its own; the outcome is then the same for any number of threads. A
-/// nested call runs on the calling thread. If calls throw, the exception of the smallest throwing index that
-/// was run is rethrown after all threads have stopped. This is the only place of the project that starts
-/// OpenMP threads.
+/// nested call is shared with the threads that have nothing else to do. If calls throw, the exception of the
+/// smallest throwing index that was run is rethrown after all threads have stopped. This is the only place of
+/// the project that starts threads. They come from oneTBB, whose idle threads sleep: those of OpenMP
+/// (libgomp) spin, and so took a third of the processor time of `retrace build` from the video decoder's own
+/// threads.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// Calls `first()` and `second()`, at the same time where there are threads for it, and returns after both:
+/// the next frames are decoded while the last are worked on. `parallel_for` within either uses the threads
+/// that are free. If one throws, the other may not be started; if both do, the exception of `first` is
+/// rethrown.
+void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second);
 
 }  // namespace vo
