@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+namespace vo {
+
+/// A pinhole camera with OpenCV's distortion model. Pixel (0, 0) is the centre of the upper left pixel.
+struct Camera {
+  int width_px = 0;
+  int height_px = 0;
+  double fx_px = 0;  ///< focal lengths
+  double fy_px = 0;
+  double cx_px = 0;  ///< principal point
+  double cy_px = 0;
+  std::vector<double> distortion;  ///< k1 k2 p1 p2 [k3 [k4 k5 k6 ...]]; empty: none
+};
+
+/// The undistorted camera of a horizontal field of view, square pixels, principal point in the middle (PVO
+/// 5.3(6)). Throws `std::invalid_argument` unless the size is positive and the angle in [10, 170] degrees.
+Camera camera_from_fov(int width_px, int height_px, double fov_deg);
+
+/// The same camera, its images resized to `width_px` columns.
+Camera resized(const Camera& camera, int width_px);
+
+/// A point on the image plane at depth 1: x right, y down, undistorted.
+struct ImagePoint {
+  double x = 0;
+  double y = 0;
+};
+
+/// Where pixels lie on the image plane. O(points).
+std::vector<ImagePoint> undistort(const Camera& camera, const std::vector<ImagePoint>& pixels);
+
+}  // namespace vo

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "vo/base/camera.hpp"
+#include "vo/gait/tracking_window.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vo {
+
+enum class HeadingMethod {
+  kNaive,     ///< median x shift / pixels per degree (PVO 4.5)
+  kRegions,   ///< median over vertical strips of the median turn in each (PVO 4.5, "regions")
+  kEpipolar,  ///< rotation of the essential matrix over the same tracks, by robust least squares
+};
+
+/// Settings of `turn`.
+struct HeadingOptions {
+  HeadingMethod method = HeadingMethod::kEpipolar;
+  int strips = 8;         ///< of `kRegions`, and where `kEpipolar` starts; >= 1
+  int min_points = 8;     ///< fewer tracked points give no answer
+  double noise_px = 0.5;  ///< standard deviation of a point's position, for `kEpipolar`
+
+  /// True if every field is in its range; else says in `*error` which is not.
+  [[nodiscard]] bool is_valid(std::string* error) const;
+};
+
+/// How far the camera turned between the two ends of the tracks, in radians, clockwise seen from above
+/// positive; none if too few points were tracked.
+///
+/// A camera that turns right moves the picture to the left (PVO 4.5). Walking forward also spreads it from
+/// the point that the walker heads for, the more the nearer things are, which the median cancels only where
+/// both sides are alike:
+///  - `kNaive` is the paper's: every point counts the same, and every pixel is as many degrees as the mean
+///  one.
+///  - `kRegions` gives each strip one vote, so that neither a passer-by in one strip nor a side with more
+///  texture
+///    turns the walker. The paper names regions and leaves their form open; angles are those of the camera's
+///    rays.
+///  - `kEpipolar` solves for the rotation and the direction of travel, for which the spread is no error: it
+///    minimises the Sampson distances of b' [t]x R a = 0 with Cauchy weights (Hartley and Zisserman
+///    2004, 11.4 and A6.8), from `kRegions` and travel along the optical axis, by Gauss-Newton. Where the
+///    walker stands, the direction of travel is not seen, and is held by a weak prior at the optical axis.
+///
+/// Throws `std::invalid_argument` if options are invalid. O(points) for each iteration.
+std::optional<double> turn(std::span<const TrackedPoint> points, const Camera& camera,
+                           const HeadingOptions& options = {});
+
+}  // namespace vo
