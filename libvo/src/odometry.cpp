@@ -4,6 +4,7 @@
 #include "vo/base/parallel.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ std::vector<Frame> read_batch(FrameSource& frames, std::size_t count) {
 }
 
 /// What is kept of a batch of frames, worked out in parallel.
-void keep(const std::vector<Frame>& batch, const WalkOptions& options, Walk& walk) {
+void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTracker& tracker, Walk& walk) {
   const std::size_t begin = walk.frames();
   walk.thumbnails.pixels.resize((begin + batch.size()) * walk.thumbnails.image_size());
   if (options.preview_width_px > 0) walk.previews.resize(begin + batch.size());
@@ -52,6 +53,10 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Walk& wal
     if (options.preview_width_px > 0)
       walk.previews[begin + i] = preview_of(batch[i].image, options.preview_width_px);
   });
+  if (!options.track_features) return;
+  std::vector<cv::Mat> images;
+  for (const Frame& frame : batch) images.push_back(frame.image);
+  std::ranges::move(tracker.push(images), std::back_inserter(walk.tracked));
 }
 
 }  // namespace
@@ -62,6 +67,7 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   const std::string stage = fmt::format("reading {}", source);
   Walk walk;
   walk.source = source;
+  FeatureTracker tracker(options.tracker);
   walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
 
   // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
@@ -70,7 +76,8 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   std::vector<Frame> batch = read_batch(*frames, batch_size);
   while (!batch.empty()) {
     std::vector<Frame> next;
-    parallel_invoke([&] { next = read_batch(*frames, batch_size); }, [&] { keep(batch, options, walk); });
+    parallel_invoke([&] { next = read_batch(*frames, batch_size); },
+                    [&] { keep(batch, options, tracker, walk); });
     batch = std::move(next);
     if (progress && !progress({.stage = stage,
                                .done = static_cast<std::int64_t>(walk.frames()),
@@ -101,6 +108,28 @@ VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options)
   for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
     if (motion.standing[i]) motion.displacement[i] = 0;
   }
+  return motion;
+}
+
+PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptions& options) {
+  if (walk.tracked.size() != walk.frames()) {
+    throw std::invalid_argument("pedestrian_motion: a walk read with track_features expected");
+  }
+  if (const double rate_hz = frame_rate_hz(walk.time_s); rate_hz <= 2 * options.lowpass.cutoff_hz) {
+    throw Error(walk.source, fmt::format("has {:.3g} frames/s, too few to see steps", rate_hz),
+                fmt::format("more than {:.3g}, twice the fastest steps", 2 * options.lowpass.cutoff_hz));
+  }
+  PedestrianMotion motion;
+  motion.signal = gait_signal(walk.tracked, walk.time_s, options.lowpass);  // PVO 4.3, 4.5
+  const GaitSignal& signal = motion.signal;
+  motion.detection =
+      detect_steps(signal.filtered_orientation_deg, walk.time_s, signal.reliable, options.steps);  // 4.4
+  const std::vector<Step>& steps = motion.detection.steps;
+  motion.step_length_m = step_lengths_m(steps, options.step_length);  // 5.3 (4)
+  motion.displacement_m =
+      step_displacement_m(steps, motion.step_length_m, walk.time_s, options.dead_reckoning);
+  motion.trajectory = dead_reckon(steps, motion.step_length_m, signal.heading_rad, walk.time_s,
+                                  options.dead_reckoning);  // 4.6
   return motion;
 }
 

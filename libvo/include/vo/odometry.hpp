@@ -1,6 +1,11 @@
 #pragma once
 
 #include "vo/base/progress.hpp"
+#include "vo/gait/dead_reckoning.hpp"
+#include "vo/gait/feature_tracker.hpp"
+#include "vo/gait/gait_signal.hpp"
+#include "vo/gait/step_detection.hpp"
+#include "vo/gait/step_length.hpp"
 #include "vo/image/image_stack.hpp"
 #include "vo/image/patch_normalisation.hpp"
 #include "vo/image/thumbnail.hpp"
@@ -21,10 +26,13 @@ namespace vo {
 struct WalkOptions {
   FrameSourceOptions frames;
   ThumbnailOptions thumbnail;
-  int preview_width_px = 160;  ///< width of the small JPEG kept of every frame; 0 keeps none
+  int preview_width_px = 160;   ///< width of the small JPEG kept of every frame; 0 keeps none
+  bool track_features = false;  ///< SURF points are followed, for `pedestrian_motion`
+  FeatureTrackerOptions tracker;
 };
 
-/// What one pass over a recording kept: about 2 kB a frame, and 3 kB more with previews.
+/// What one pass over a recording kept: about 2 kB a frame, 3 kB more with previews, 100 bytes with tracked
+/// points.
 struct Walk {
   std::string source;  ///< as given: a path, or camera:N
   int frame_width_px = 0;
@@ -33,6 +41,7 @@ struct Walk {
   ImageStack thumbnails;       ///< grey, one for each frame
   std::vector<std::vector<std::uint8_t>>
       previews;                       ///< JPEG, one for each frame; empty if none were asked for
+  std::vector<FrameMotion> tracked;   ///< by the points followed, one for each frame; empty if they were not
   std::vector<std::string> warnings;  ///< what a user should know of the recording
 
   [[nodiscard]] std::size_t frames() const { return time_s.size(); }
@@ -40,7 +49,7 @@ struct Walk {
 
 /// Reads a recording (see `open_frame_source` for its forms). Throws `vo::Error` if it cannot be read or has
 /// fewer than two frames. Stops early, with what it has, when `progress` returns false. Reading is serial,
-/// the rest in parallel.
+/// and goes on while the frames before are worked on in parallel.
 Walk read_walk(const std::string& source, const WalkOptions& options = {},
                const ProgressCallback& progress = {});
 
@@ -64,5 +73,27 @@ struct VisualMotion {
 /// -> standing. Throws `vo::Error` naming the walk if there is no motion to learn from (black, or standing
 /// still throughout).
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options = {});
+
+/// Settings of `pedestrian_motion`.
+struct PedestrianMotionOptions {
+  LowpassOptions lowpass;
+  StepDetectionOptions steps;
+  StepLengthOptions step_length;
+  DeadReckoningOptions dead_reckoning;
+};
+
+/// Steps, heading and trajectory of a walk (PVO 4).
+struct PedestrianMotion {
+  GaitSignal signal;
+  StepDetection detection;
+  std::vector<double> step_length_m;   ///< of each step
+  std::vector<double> displacement_m;  ///< of each frame since the one before it; the first: 0
+  DeadReckoning trajectory;            ///< from (0, 0), heading 0
+};
+
+/// Gait signal -> steps -> step lengths -> displacement and trajectory, of a walk read with `track_features`.
+/// Throws `std::invalid_argument` for one without, `vo::Error` naming a walk whose frame rate is too low to
+/// see steps.
+PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptions& options = {});
 
 }  // namespace vo

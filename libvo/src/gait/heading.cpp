@@ -3,7 +3,6 @@
 #include "vo/base/median.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -52,74 +51,57 @@ double regions_turn(std::span<const TrackedPoint> points, const Rays& rays, cons
   return votes.empty() ? naive_turn(points, camera) : median(votes);
 }
 
-/// Rotation of small angles about x (right), y (down) and z (forward); exact to the third order in them.
 Eigen::Matrix3d rotation(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle < 1e-12) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+  const double angle_rad = w.norm();
+  if (angle_rad < 1e-12) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle_rad, w / angle_rad).toRotationMatrix();
 }
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-/// b ~ R a + t: turning the camera right by psi moves points by -psi about y.
+/// Gauss-Newton on the rotation R (three angles) and the direction of travel t (x and y at z = 1) of the
+/// essential matrix [t]x R. A camera that turns right moves points by a rotation about y to the left.
 double epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
   using Vector5 = Eigen::Matrix<double, 5, 1>;
-  constexpr int kIterations = 8;
-  // One standard deviation of the direction of travel about the optical axis, and of the rotation about its
-  // start.
-  constexpr double kTravelPrior = 0.3, kTurnPrior_rad = 0.2;
-  const std::size_t n = rays.from.size();
-  Vector5 state;  // rotation vector, then the direction of travel's x and y at z = 1
-  state << 0, -start_turn_rad, 0, 0, 0;
-  const Vector5 prior_mean = state;
+  constexpr int kMaxIterations = 10;
+  constexpr double kConverged = 1e-7;
+  // Standard deviations of the priors: the rotation about its start, the direction of travel about the
+  // optical axis. Both far wider than what the points say, unless these say nothing.
+  constexpr double kRotation_rad = 0.2, kTravel = 0.3;
   Vector5 prior_weight;
-  prior_weight << Eigen::Vector3d::Constant(1 / (kTurnPrior_rad * kTurnPrior_rad)),
-      Eigen::Vector2d::Constant(1 / (kTravelPrior * kTravelPrior));
+  prior_weight.head<3>().setConstant(1 / (kRotation_rad * kRotation_rad));
+  prior_weight.tail<2>().setConstant(1 / (kTravel * kTravel));
 
-  const auto residual = [&](const Vector5& at, std::size_t i) {
-    const Eigen::Vector3d a(rays.from[i].x, rays.from[i].y, 1), b(rays.to[i].x, rays.to[i].y, 1);
-    const Eigen::Matrix3d e = cross_matrix({at[3], at[4], 1}) * rotation(at.head<3>());
-    const Eigen::Vector3d ea = e * a, eb = e.transpose() * b;
-    const double scale = std::sqrt(ea.head<2>().squaredNorm() + eb.head<2>().squaredNorm());
-    return b.dot(ea) / std::max(scale, 1e-9);
-  };
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  const Eigen::Vector3d start(0, -start_turn_rad, 0);
+  Eigen::Vector3d w = start;
+  Eigen::Vector3d t(0, 0, 1);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const Eigen::Matrix3d r = rotation(w);
     Eigen::Matrix<double, 5, 5> normal = prior_weight.asDiagonal();
-    Vector5 gradient = prior_weight.cwiseProduct(state - prior_mean);
-    // E and its derivatives are the same for every point.
-    const Eigen::Matrix3d t = cross_matrix({state[3], state[4], 1}), r = rotation(state.head<3>());
-    const Eigen::Matrix3d e = t * r;
-    std::array<Eigen::Matrix3d, 5> derivative;
-    for (int k = 0; k < 3; ++k)
-      derivative[static_cast<std::size_t>(k)] = t * cross_matrix(Eigen::Vector3d::Unit(k)) * r;
-    for (int k = 0; k < 2; ++k)
-      derivative[static_cast<std::size_t>(3 + k)] = cross_matrix(Eigen::Vector3d::Unit(k)) * r;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Eigen::Vector3d a(rays.from[i].x, rays.from[i].y, 1), b(rays.to[i].x, rays.to[i].y, 1);
-      const Eigen::Vector3d ea = e * a, eb = e.transpose() * b;
-      const double scale = std::sqrt(ea.head<2>().squaredNorm() + eb.head<2>().squaredNorm());
-      if (scale < 1e-9) continue;
-      const double error = b.dot(ea) / scale / noise;
-      const double weight = 1 / (1 + error * error / 4);  // Cauchy, at two standard deviations
+    Vector5 gradient;
+    gradient << w - start, t.head<2>();
+    gradient.array() *= prior_weight.array();
+    for (std::size_t i = 0; i < rays.from.size(); ++i) {
+      const Eigen::Vector3d b(rays.to[i].x, rays.to[i].y, 1);
+      const Eigen::Vector3d turned = r * Eigen::Vector3d(rays.from[i].x, rays.from[i].y, 1);
+      const Eigen::Vector3d plane = b.cross(t);  // b' [t]x R a = plane . R a
+      const double length = std::sqrt(t.cross(turned).head<2>().squaredNorm() +
+                                      (r.transpose() * plane).head<2>().squaredNorm());
+      if (!(length > 0)) continue;  // at the point that the walker heads for
+      const double scale = 1 / (length * noise);
+      const double error = plane.dot(turned) * scale;     // Sampson's distance
+      const double weight = 1 / (1 + error * error / 4);  // Cauchy's, at two standard deviations
       Vector5 row;
-      for (std::size_t k = 0; k < 5; ++k)
-        row[static_cast<Eigen::Index>(k)] = b.dot(derivative[k] * a) / scale / noise;
-      normal += weight * row * row.transpose();
+      row << turned.cross(plane), turned.cross(b).head<2>();
+      row *= scale;
+      normal.noalias() += weight * row * row.transpose();
       gradient += weight * error * row;
     }
     const Vector5 step = normal.ldlt().solve(gradient);
-    // The rotation's derivative is taken at its left: exp(step) R.
-    const Eigen::AngleAxisd turned(rotation(-step.head<3>()) * r);
-    state.head<3>() = turned.angle() * turned.axis();
-    state.tail<2>() -= step.tail<2>();
-    if (step.norm() < 1e-7) break;
+    const Eigen::AngleAxisd next(rotation(-step.head<3>()) * r);
+    w = next.angle() * next.axis();
+    t.head<2>() -= step.tail<2>();
+    if (step.norm() < kConverged) break;
   }
-  (void)residual;
-  return -state[1];
+  return -w.y();
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "vo/base/trajectory.hpp"
+#include "vo/gait/step_detection.hpp"
+
+#include <span>
+#include <vector>
+
+namespace vo {
+
+/// Settings of `dead_reckon` and `step_displacement_m`.
+struct DeadReckoningOptions {
+  bool heading_over_step = true;  ///< false: the heading at the step's frame alone [PVO 4.6]
+  double pause_s = 1.5;           ///< longest step, seconds; one that comes later was preceded by a stand
+};
+
+/// A walk in the plane, metres from where it began.
+struct DeadReckoning {
+  std::vector<Pose2> at_step;  ///< after each step; heading that of the step
+  Trajectory at_frame;         ///< at each frame; heading that of the frame
+};
+
+/// Metres walked from the frame before to each frame (the first: 0): each step's length, spread evenly over
+/// the time since the step before it.
+///
+/// A step after a gap longer than `pause_s`, like the first, takes only its usual time before it is done: as
+/// long as the step that follows, or the median of all, or half a second if there is no other. The walker
+/// stands still before that. The sum is that of the lengths.
+///
+/// `lengths_m`: one per step; `time_s`: one per frame, increasing. Throws `std::invalid_argument` for another
+/// number of lengths, or steps whose frames do not increase from 1 on or are not among the frames. O(n).
+std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<const double> lengths_m,
+                                        std::span<const double> time_s,
+                                        const DeadReckoningOptions& options = {});
+
+/// Joins steps and headings to a trajectory from (0, 0) (PVO 4.6):
+/// x_i = x_(i-1) + length_i * sin(heading_i), y_i = y_(i-1) + length_i * cos(heading_i).
+///
+/// In PVO heading_i is that of the frame at which step i is found. There the trunk is turned furthest to one
+/// side; and on a corner one step's frames look in many directions. So, by default, a step goes where the
+/// walker looks while he takes it: length_i times the mean of (sin, cos) over its frames, weighted by
+/// `step_displacement_m`, and heading_i is the direction of that. Between steps, the pose at a frame moves
+/// with that displacement; at a step's frame it is that step's.
+///
+/// `heading_rad`: one per frame, clockwise from +y; the rest as `step_displacement_m`. O(n).
+DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> lengths_m,
+                          std::span<const double> heading_rad, std::span<const double> time_s,
+                          const DeadReckoningOptions& options = {});
+
+}  // namespace vo

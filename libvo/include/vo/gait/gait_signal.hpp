@@ -1,0 +1,54 @@
+#pragma once
+
+#include "vo/base/camera.hpp"
+#include "vo/gait/heading.hpp"
+#include "vo/gait/lowpass.hpp"
+#include "vo/gait/tracking_window.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace vo {
+
+enum class Average { kMedian, kMean };
+
+/// What the tracked points of one frame say of the camera's motion since the frame before. Changes over the
+/// tracking window are divided by its frames. None where fewer points than asked were tracked.
+struct FrameMotion {
+  std::size_t matches = 0;  ///< points tracked over the window
+  std::optional<double>
+      orientation_deg;             ///< change of the points' orientation; clockwise in the picture positive
+  std::optional<double> shift_px;  ///< of the points, to the right positive
+  std::optional<double> turn_rad;  ///< of the camera, clockwise seen from above positive
+};
+
+/// Settings of `frame_motion`.
+struct FrameMotionOptions {
+  Average average = Average::kMedian;  ///< of orientation and shift over the points [PVO 4.3]
+  std::size_t min_matches = 8;         ///< fewer are no measurement
+  HeadingOptions heading;
+};
+
+/// Sums up a frame's points (PVO 4.3). Orientation changes are wrapped to half a turn before they are
+/// averaged; the mean of angles is that of their directions. `camera`: of the frames the points were found
+/// in. O(points).
+FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const FrameMotionOptions& options = {});
+
+/// The signal that steps are read from, and the direction walked in, for each frame of a walk.
+struct GaitSignal {
+  std::vector<double> orientation_deg;           ///< median orientation change, gaps bridged
+  std::vector<double> filtered_orientation_deg;  ///< low-passed
+  std::vector<double> heading_rad;               ///< since the first frame, clockwise; the sum of the turns
+  std::vector<bool> reliable;                    ///< false where too few points were tracked
+  std::size_t bridged = 0;                       ///< frames that are not reliable, the first not counted
+};
+
+/// Joins the frames' motions (PVO 4.3, 4.5): gaps bridged by straight lines and marked, never taken as zero;
+/// the orientation low-passed without lag. Throws `std::invalid_argument` if there is not one time for each
+/// frame, for fewer than two frames, or a frame rate that is not above twice the filter's cut-off. O(n).
+GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const double> time_s,
+                       const LowpassOptions& options = {});
+
+}  // namespace vo

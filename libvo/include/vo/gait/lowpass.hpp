@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace vo {
+
+/// Settings of the low-pass filter.
+struct LowpassOptions {
+  /// 1 to 8. PVO gives none; the usual filter of gait analysis is of order 2, run both ways (Winter,
+  /// "Biomechanics and Motor Control of Human Movement").
+  int order = 2;
+  double cutoff_hz = 4;  ///< where one pass halves the power [PVO 5.3 (2)]
+};
+
+/// The frames per second of a recording: one over the median time between frames. `time_s` increases; throws
+/// `std::invalid_argument` for fewer than two. O(n).
+double frame_rate_hz(std::span<const double> time_s);
+
+/// Values whose flag is false, replaced by the straight line between the reliable ones about them; before the
+/// first and after the last, by that value; by 0 if none is reliable. One flag per value, else
+/// `std::invalid_argument`. A filter would smear what is no measurement over its neighbours. O(n).
+std::vector<double> bridge_gaps(std::span<const double> values, const std::vector<bool>& reliable);
+
+/// A Butterworth low-pass filter that sees one value after another (PVO 4.3, 5.3 (2)), for live use.
+///
+/// Second-order sections by the bilinear transform, with the cut-off warped so that it comes out exact. The
+/// gain at f Hz is 1 / sqrt(1 + (tan(pi f / rate) / tan(pi cutoff / rate))^(2 order)), 1 at rest. The first
+/// value is taken to have been there for ever, so that nothing rings in. The output lags: by order 2 at 4 Hz,
+/// by 56 ms.
+class Lowpass {
+ public:
+  /// Throws `std::invalid_argument`, naming value and expectation, for an order outside 1..8, a cut-off that
+  /// is not above 0, or a rate that is not above twice the cut-off.
+  Lowpass(double rate_hz, const LowpassOptions& options = {});
+
+  /// The next value, filtered. O(order).
+  double push(double value);
+
+ private:
+  struct Section {
+    std::array<double, 3> b{};  // numerator, 1 z^-1 z^-2
+    std::array<double, 2> a{};  // denominator, z^-1 z^-2; that of 1 is 1
+    std::array<double, 2> state{};
+  };
+  std::vector<Section> sections_;
+  bool started_ = false;
+};
+
+/// The same filter run forwards and backwards over a whole signal, for files: no lag at any frequency, and
+/// the gain squared. The ends are continued by their reflection through the end point (odd), by three periods
+/// of the cut-off or as far as the signal reaches. One value out for each in. Throws as `Lowpass`.
+/// O(order * n).
+std::vector<double> lowpass_zero_phase(std::span<const double> signal, double rate_hz,
+                                       const LowpassOptions& options = {});
+
+}  // namespace vo

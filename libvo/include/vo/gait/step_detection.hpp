@@ -1,0 +1,69 @@
+#pragma once
+
+#include "vo/gait/periodicity.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace vo {
+
+enum class Leg { kLeft, kRight };
+
+struct Step {
+  std::size_t frame = 0;
+  double time_s = 0;
+  Leg leg = Leg::kLeft;
+  double value_deg = 0;  ///< of the signal at the frame
+  bool bridged = false;  ///< not seen, but between steps whose cadence leaves room for it
+};
+
+/// Settings of `detect_steps`.
+struct StepDetectionOptions {
+  std::optional<double> delta_min_deg;  ///< static threshold, degrees; none: learned from the walk
+  double delta_min_ratio = 0.25;  ///< learned delta_min, as a share of an average step's value [PVO 5.3 (3)]
+  double delta_dyn_ratio = 0.25;  ///< dynamic threshold, of the median difference of a pair [PVO 5.3 (3)]
+  std::size_t pairs = 5;  ///< left and right steps in succession, of which the median is taken [PVO 5.3 (3)]
+  double stride_ratio =
+      0.5;  ///< least amplitude of the stride about a step, as a share of the gait's around it
+  double pause_s =
+      1.5;  ///< longest step; after a longer gap both dynamic threshold and alternation begin anew
+  double max_bridged_s = 5;        ///< longest gap between two steps to be filled by cadence; 0 fills none
+  PeriodicityOptions periodicity;  ///< what is gait; min_strength = -1 lets everything pass
+};
+
+/// The steps of a walk and what they were found by.
+struct StepDetection {
+  std::vector<Step> steps;              ///< in order of time, bridged ones among them
+  std::size_t bridged = 0;              ///< how many of them are
+  std::optional<double> delta_min_deg;  ///< as given or learned; none if nothing in the walk is like gait
+  std::vector<double> delta_dyn_deg;    ///< at each frame, degrees; with delta_min what PVO's Fig. 3 shows
+};
+
+/// Finds the steps in the orientation signal (PVO 4.4, Fig. 2).
+///
+/// A peak above 0 is a step with the left leg, a valley below 0 one with the right; other extrema are none. A
+/// step's value is at least delta_min and above delta_dyn = ratio * median of the absolute differences of the
+/// last `pairs` pairs of successive steps. Of two steps in a row on one side, the larger is kept.
+///
+/// What PVO leaves open, or does otherwise:
+/// - delta_min is set by hand for each person there. Not given, it is a quarter of the amplitude of the
+///   stretches that are like gait (`gait_amplitude_deg`); where there are none, there are no steps.
+/// - A step lies in a stretch that is like gait (`stride_periodicity`), so that neither noise above the
+///   thresholds nor a blank wall (Fig. 6) breeds steps.
+/// - Two steps, like two on one side, are one if they follow faster than 1 / max_step_hz.
+/// - After a gap longer than `pause_s` the walker has stood, or steps have been lost: steps before it say
+///   nothing of the next one's leg, nor, as one may have run before and stroll after, of its size.
+/// - Steps lost in a short gap are filled in and marked, unless the walker is seen to stand in it: from two
+///   strides of like cadence around it follows how many went into it, odd between two steps of one side, even
+///   between left and right.
+///
+/// `signal_deg`: one value per frame, low-passed, about 0, unreliable frames bridged before the filter;
+/// `time_s`: one per frame, increasing; `reliable`: one per frame, false where too few matches were found. No
+/// step is found at an unreliable frame. Throws `std::invalid_argument` for other sizes or options out of
+/// range. Fewer than three frames have no steps. O(n) and what `stride_periodicity` takes.
+StepDetection detect_steps(std::span<const double> signal_deg, std::span<const double> time_s,
+                           const std::vector<bool>& reliable, const StepDetectionOptions& options = {});
+
+}  // namespace vo

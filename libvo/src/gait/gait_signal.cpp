@@ -1,0 +1,77 @@
+#include "vo/gait/gait_signal.hpp"
+
+#include "vo/base/median.hpp"
+#include "vo/base/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace vo {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+double mean(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double mean_angle_rad(std::span<const double> angles_rad) {
+  double sine = 0, cosine = 0;
+  for (const double angle : angles_rad) {
+    sine += std::sin(angle);
+    cosine += std::cos(angle);
+  }
+  return std::atan2(sine, cosine);
+}
+
+}  // namespace
+
+FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const FrameMotionOptions& options) {
+  FrameMotion motion{.matches = tracks.points.size(), .orientation_deg = {}, .shift_px = {}, .turn_rad = {}};
+  if (tracks.span == 0 || tracks.points.size() < std::max<std::size_t>(options.min_matches, 1)) return motion;
+  std::vector<double> rotations_rad, shifts_px;
+  for (const TrackedPoint& point : tracks.points) {
+    rotations_rad.push_back(
+        wrap_angle_rad(static_cast<double>(point.to.orientation_rad) - point.from.orientation_rad));
+    shifts_px.push_back(static_cast<double>(point.to.x_px) - point.from.x_px);
+  }
+  const double frames = tracks.span;
+  const bool by_median = options.average == Average::kMedian;
+  motion.orientation_deg =
+      (by_median ? median(rotations_rad) : mean_angle_rad(rotations_rad)) * kDegrees / frames;
+  motion.shift_px = (by_median ? median(shifts_px) : mean(shifts_px)) / frames;
+  if (const std::optional<double> turned = turn(tracks.points, camera, options.heading)) {
+    motion.turn_rad = *turned / frames;
+  }
+  return motion;
+}
+
+GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const double> time_s,
+                       const LowpassOptions& options) {
+  if (motion.size() != time_s.size()) throw std::invalid_argument("gait_signal: one time per frame expected");
+  const double rate_hz = frame_rate_hz(time_s);
+  GaitSignal signal;
+  std::vector<double> turns_rad;
+  for (const FrameMotion& frame : motion) {
+    signal.reliable.push_back(frame.orientation_deg.has_value());
+    signal.orientation_deg.push_back(frame.orientation_deg.value_or(0));
+    turns_rad.push_back(frame.turn_rad.value_or(0));
+  }
+  signal.bridged =
+      static_cast<std::size_t>(std::count(signal.reliable.begin() + 1, signal.reliable.end(), false));
+  signal.orientation_deg = bridge_gaps(signal.orientation_deg, signal.reliable);
+  signal.filtered_orientation_deg = lowpass_zero_phase(signal.orientation_deg, rate_hz, options);
+  turns_rad = bridge_gaps(turns_rad, signal.reliable);
+  double heading_rad = 0;
+  for (std::size_t i = 0; i < turns_rad.size(); ++i) {
+    if (i > 0) heading_rad += turns_rad[i];
+    signal.heading_rad.push_back(heading_rad);
+  }
+  return signal;
+}
+
+}  // namespace vo
