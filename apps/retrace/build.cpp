@@ -147,6 +147,7 @@ Command add_build(CLI::App& root) {
       ->excludes(truth);
   add_frame_options(*app, options->settings);
   add_sampling_options(*app, options->settings);
+  add_odometry_options(*app, options->settings);
   add_general_options(*app, options->settings);
   add_config_option(*app, options->common);
   add_force_option(*app, options->common);

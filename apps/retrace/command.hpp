@@ -13,6 +13,7 @@ struct Command {
   std::function<void()> run;
 };
 
+Command add_odometry(CLI::App& root);
 Command add_build(CLI::App& root);
 Command add_localise(CLI::App& root);
 Command add_evaluate(CLI::App& root);

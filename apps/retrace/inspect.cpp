@@ -80,8 +80,9 @@ void print(const std::string& path, const place::Route& route) {
   if (route.sampling.motion == place::MotionSource::kNone) {
     fmt::print("sampling: every {} frames\n", route.sampling.every);
   } else {
-    fmt::print("sampling: by {}, unit {:.4f} frames of mean speed (n = {})\n",
-               place::name_of(route.sampling.motion), route.sampling.unit, route.sampling.n);
+    const bool metric = route.sampling.motion == place::MotionSource::kSteps;
+    fmt::print("sampling: by {}, unit {:.4f} {} (n = {})\n", place::name_of(route.sampling.motion),
+               route.sampling.unit, metric ? "m" : "frames of mean speed", route.sampling.n);
   }
   for (const place::Traverse& traverse : route.traverses) {
     fmt::print("\ntraverse '{}' from {}\n", traverse.name, traverse.source);

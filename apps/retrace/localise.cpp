@@ -220,6 +220,7 @@ Command add_localise(CLI::App& root) {
       "write the cost matrix and the enhanced one as D.csv and DD.csv, a line for each query keyframe");
   add_frame_options(*app, options->settings);
   add_sampling_options(*app, options->settings);
+  add_odometry_options(*app, options->settings);
   add_search_options(*app, options->settings);
   add_general_options(*app, options->settings);
   add_config_option(*app, options->common);

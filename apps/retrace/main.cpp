@@ -69,7 +69,7 @@ int run(int argc, char** argv) {
   const std::vector<retrace::Command> commands{retrace::add_build(root),    retrace::add_localise(root),
                                                retrace::add_evaluate(root), retrace::add_inspect(root),
                                                retrace::add_simulate(root), retrace::add_demo(root),
-                                               retrace::add_config(root)};
+                                               retrace::add_odometry(root), retrace::add_config(root)};
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   try {

@@ -8,12 +8,14 @@
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
+#include <vo/io/camera_calibration.hpp>
 
 namespace retrace {
 namespace {
 
 constexpr const char* kFrames = "Frames and descriptors";
 constexpr const char* kSampling = "Motion and sampling";
+constexpr const char* kOdometry = "Pedestrian odometry";
 constexpr const char* kSearch = "Search";
 constexpr const char* kGeneral = "General";
 
@@ -61,12 +63,17 @@ void add_frame_options(CLI::App& app, Settings& s) {
 
 void add_sampling_options(CLI::App& app, Settings& s) {
   add_choice(app, kSampling, "--motion", s.sampling.sampling.motion,
-             {{"sad", place::MotionSource::kSad}, {"none", place::MotionSource::kNone}},
-             "what walks are resampled by: alignment error [SSS 3.2], or nothing");
+             {{"sad", place::MotionSource::kSad},
+              {"steps", place::MotionSource::kSteps},
+              {"none", place::MotionSource::kNone}},
+             "what walks are resampled by: alignment error [SSS 3.2], steps [PVO], or nothing");
   add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
       ->check(CLI::Range(1, 1000000));
   add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
       ->check(CLI::Range(0.01, 1000.0));
+  add(app, kSampling, "--spacing-m", s.sampling.sampling.spacing_m,
+      "metres between keyframes, instead of SSS Eq. 4; with motion in metres (steps)")
+      ->check(CLI::PositiveNumber);
   add(app, kSampling, "--separations", s.sampling.motion.model.separations,
       "frame separations compared for each frame's motion, 1 is SSS Eq. 3 to the letter")
       ->check(CLI::Range(1, 10));
@@ -88,6 +95,51 @@ void add_sampling_options(CLI::App& app, Settings& s) {
   add(app, kSampling, "--tie-scale", s.sampling.tie_scale,
       "true: bring each walk to the keyframe spacing of the route's first traverse")
       ->default_str(s.sampling.tie_scale ? "true" : "false");
+}
+
+void add_odometry_options(CLI::App& app, Settings& s) {
+  vo::FeatureTrackerOptions& tracker = s.walk.tracker;
+  vo::PedestrianMotionOptions& pedestrian = s.sampling.pedestrian;
+  add(app, kOdometry, "--fov-deg", tracker.fov_deg,
+      "degrees, horizontal field of view of the camera [PVO 5.3]")
+      ->check(CLI::Range(10.0, 170.0));
+  add(app, kOdometry, "--camera", s.camera, "calibration file of OpenCV (YAML), instead of --fov-deg");
+  add(app, kOdometry, "--step-length", pedestrian.step_length.length_m, "metres, of an average step")
+      ->check(CLI::PositiveNumber);
+  add_choice(app, kOdometry, "--step-length-model", pedestrian.step_length.model,
+             {{"cadence", vo::StepLengthModel::kCadence}, {"fixed", vo::StepLengthModel::kFixed}},
+             "in proportion to cadence about --step-length, or every step alike [PVO 5.3]");
+  add(app, kOdometry, "--tracking-width-px", tracker.width_px,
+      "pixels, wider frames are resized to it [PVO 5.1]")
+      ->check(CLI::Range(64, 8192));
+  add(app, kOdometry, "--surf-threshold", tracker.surf.detector.threshold,
+      "least response of an interest point; small, as --surf-points limits them")
+      ->check(CLI::PositiveNumber);
+  add(app, kOdometry, "--surf-points", tracker.surf.detector.max_points,
+      "interest points of a frame, the strongest")
+      ->check(CLI::Range(10, 100000));
+  add_choice(app, kOdometry, "--matcher", tracker.match.search,
+             {{"exact", vo::MatchSearch::kExact}, {"flann", vo::MatchSearch::kFlann}},
+             "how the nearest descriptor is found");
+  add(app, kOdometry, "--tracking-window", tracker.window,
+      "frames between which a point is compared [PVO Table 1]")
+      ->check(CLI::Range(1, vo::TrackingWindow::kMaxWindow));
+  add_choice(app, kOdometry, "--average", tracker.motion.average,
+             {{"median", vo::Average::kMedian}, {"mean", vo::Average::kMean}},
+             "of a frame's points [PVO 4.3]");
+  add_choice(app, kOdometry, "--heading", tracker.motion.heading.method,
+             {{"epipolar", vo::HeadingMethod::kEpipolar},
+              {"regions", vo::HeadingMethod::kRegions},
+              {"naive", vo::HeadingMethod::kNaive}},
+             "rotation of the essential matrix, or the x shift by regions or of all points [PVO 4.5]");
+  add(app, kOdometry, "--lowpass-order", pedestrian.lowpass.order, "order of the Butterworth filter")
+      ->check(CLI::Range(1, 8));
+  add(app, kOdometry, "--lowpass-cutoff-hz", pedestrian.lowpass.cutoff_hz, "its cut-off [PVO 5.3]")
+      ->check(CLI::PositiveNumber);
+  add(app, kOdometry, "--min-step-deg", pedestrian.steps.delta_min_deg,
+      "degrees of orientation change a frame, the static threshold; learned from the walk if not given [PVO "
+      "4.4]")
+      ->check(CLI::PositiveNumber);
 }
 
 void add_search_options(CLI::App& app, Settings& s) {
@@ -138,6 +190,7 @@ std::vector<SettingEntry> entries(const Settings& settings) {
   CLI::App app;
   add_frame_options(app, copy);
   add_sampling_options(app, copy);
+  add_odometry_options(app, copy);
   add_search_options(app, copy);
   add_general_options(app, copy);
   std::vector<SettingEntry> all;
@@ -168,6 +221,10 @@ bool given(const CLI::App& app, const std::string& option) {
   return found != nullptr && found->count() > 0;
 }
 
+void follow_motion(Settings& settings) {
+  settings.walk.track_features = settings.sampling.sampling.motion == place::MotionSource::kSteps;
+}
+
 void resolve(const CLI::App& app, Settings& settings) {
   place::SequenceSearchOptions& search = settings.localiser.search;
   if (settings.compatibility != Compatibility::kNone) {
@@ -187,10 +244,17 @@ void resolve(const CLI::App& app, Settings& settings) {
   } else if (std::string reason; !search.is_valid(&reason)) {
     throw vo::Error("search settings", reason);
   }
-  if (settings.sampling.sampling.motion == place::MotionSource::kSad &&
-      settings.sampling.sampling.every != 1) {
-    throw vo::Error("--every", "has no meaning with --motion sad", "--motion none --every K");
+  const place::Sampling& sampling = settings.sampling.sampling;
+  if (sampling.motion != place::MotionSource::kNone && sampling.every != 1) {
+    throw vo::Error("--every", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
+                    "--motion none --every K");
   }
+  if (sampling.spacing_m && sampling.motion != place::MotionSource::kSteps) {
+    throw vo::Error("--spacing-m", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
+                    "motion in metres: --motion steps");
+  }
+  follow_motion(settings);
+  if (!settings.camera.empty()) settings.walk.tracker.camera = vo::read_camera_calibration(settings.camera);
 }
 
 }  // namespace retrace

@@ -24,6 +24,7 @@ struct Settings {
   vo::PatchNormalisationOptions patch;
   place::WalkSamplingOptions sampling;
   place::LocaliserOptions localiser;
+  std::string camera;  ///< calibration file; empty: by the field of view
   Compatibility compatibility = Compatibility::kNone;
   int threads = 0;
 };
@@ -32,6 +33,8 @@ struct Settings {
 void add_frame_options(CLI::App& app, Settings& settings);
 /// How a walk becomes keyframes.
 void add_sampling_options(CLI::App& app, Settings& settings);
+/// Steps, heading and step length.
+void add_odometry_options(CLI::App& app, Settings& settings);
 /// Enhancement, search and acceptance.
 void add_search_options(CLI::App& app, Settings& settings);
 /// What every command has.
@@ -53,6 +56,9 @@ std::string to_toml(const Settings& settings);
 
 /// True if the user gave the option, on the command line or in a file.
 bool given(const CLI::App& app, const std::string& option);
+
+/// Has what the motion source needs kept of the walk.
+void follow_motion(Settings& settings);
 
 /// Puts the settings that follow from others in place (the original's options from --compat). Throws
 /// `vo::Error` for settings that do not go together.

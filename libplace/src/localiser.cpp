@@ -88,6 +88,14 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
       walk.source, model.separation.back())};
 }
 
+std::vector<double> displacement_of_steps(const vo::Walk& walk, const vo::PedestrianMotionOptions& options) {
+  vo::PedestrianMotion motion = vo::pedestrian_motion(walk, options);
+  if (motion.detection.steps.empty()) {
+    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
+  }
+  return std::move(motion.displacement_m);
+}
+
 Place place_of(const Traverse& traverse, std::size_t keyframe) {
   const Keyframe& k = traverse.keyframes[keyframe];
   return {.traverse = traverse.name,
@@ -109,14 +117,18 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
     sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
     return sampled;
   }
-  vo::VisualMotionOptions motion_options = options.motion;
-  motion_options.patch = route.patch;
-  vo::VisualMotion motion = vo::visual_motion(walk, motion_options);
-  sampled.displacement = std::move(motion.displacement);
-  sampled.motion_model = std::move(motion.model);
-  sampled.warnings = motion_warnings(walk, sampled.motion_model);
-  sampled.unit =
-      sampling.unit > 0 ? sampling.unit : sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
+  if (sampling.motion == MotionSource::kSteps) {
+    sampled.displacement = displacement_of_steps(walk, options.pedestrian);
+  } else {
+    vo::VisualMotionOptions motion_options = options.motion;
+    motion_options.patch = route.patch;
+    vo::VisualMotion motion = vo::visual_motion(walk, motion_options);
+    sampled.displacement = std::move(motion.displacement);
+    sampled.motion_model = std::move(motion.model);
+    sampled.warnings = motion_warnings(walk, sampled.motion_model);
+  }
+  const double eq4 = sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
+  sampled.unit = sampling.spacing_m.value_or(sampling.unit > 0 ? sampling.unit : eq4);
   sampled.frames = resample(sampled.displacement, sampled.unit);
   sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
   if (reference == nullptr || !options.tie_scale) return sampled;

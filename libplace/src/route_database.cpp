@@ -64,6 +64,13 @@ std::int64_t checksum(std::span<const std::uint8_t> bytes) {
   return std::bit_cast<std::int64_t>(hash);
 }
 
+std::optional<MotionSource> motion_source(std::string_view name) {
+  for (const MotionSource motion : {MotionSource::kNone, MotionSource::kSad, MotionSource::kSteps}) {
+    if (name == name_of(motion)) return motion;
+  }
+  return std::nullopt;
+}
+
 std::string_view name_of(vo::PatchShape shape) {
   return shape == vo::PatchShape::kGrid ? "grid" : "window";
 }
@@ -216,7 +223,15 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
 }  // namespace
 
 std::string_view name_of(MotionSource motion) {
-  return motion == MotionSource::kNone ? "none" : "sad";
+  switch (motion) {
+    case MotionSource::kNone:
+      return "none";
+    case MotionSource::kSad:
+      return "sad";
+    case MotionSource::kSteps:
+      return "steps";
+  }
+  throw std::invalid_argument("name_of: no motion source");
 }
 
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options) {
@@ -257,8 +272,9 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
       row.text() == name_of(vo::PatchShape::kWindow) ? vo::PatchShape::kWindow : vo::PatchShape::kGrid;
   route.patch.min_deviation = row.real();
   route.patch.min_contrast = row.real();
-  route.sampling.motion =
-      row.text() == name_of(MotionSource::kNone) ? MotionSource::kNone : MotionSource::kSad;
+  const std::optional<MotionSource> motion = motion_source(row.text());
+  if (!motion) damaged(shown, "its motion source is unknown");
+  route.sampling.motion = *motion;
   route.sampling.every = static_cast<int>(row.integer());
   route.sampling.n = row.real();
   route.sampling.unit = row.real();

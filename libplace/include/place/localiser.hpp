@@ -21,6 +21,7 @@ namespace place {
 /// Settings of `sample_walk`.
 struct WalkSamplingOptions {
   vo::VisualMotionOptions motion;  ///< its `patch` is overruled by the route's
+  vo::PedestrianMotionOptions pedestrian;
   Sampling sampling;
   bool tie_scale = true;  ///< bring a walk to the spacing of the route's first traverse (`relative_scale`)
   RelativeScaleOptions relative_scale;

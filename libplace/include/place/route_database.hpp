@@ -17,15 +17,17 @@ namespace place {
 
 /// Where the displacement that a walk is resampled by comes from.
 enum class MotionSource {
-  kNone,  ///< nowhere: every k-th frame (the vanilla of SSS)
-  kSad,   ///< alignment error, through the learned motion model (SSS 3.2)
+  kNone,   ///< nowhere: every k-th frame (the vanilla of SSS)
+  kSad,    ///< alignment error, through the learned motion model (SSS 3.2)
+  kSteps,  ///< steps, in metres (PVO)
 };
 
 /// How walks on a route become keyframes; the same for all of them, so that their keyframes are comparable.
 struct Sampling {
   MotionSource motion = MotionSource::kSad;
-  int every = 1;  ///< frames between keyframes, with `kNone`
-  double n = 6;   ///< SSS Eq. 4's n, with motion
+  int every = 1;                    ///< frames between keyframes, with `kNone`
+  double n = 6;                     ///< SSS Eq. 4's n, with motion
+  std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4; with metric motion
   double unit =
       0;  ///< SSS Eq. 4's u, in the displacement's unit, learned from the first traverse; with motion
 };
@@ -84,7 +86,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
 /// thumbnails do not fit its keyframes or the route's thumbnail size, or two traverses share a name.
 void write_route(const std::filesystem::path& path, const Route& route);
 
-/// "none", "sad".
+/// "none", "sad", "steps".
 std::string_view name_of(MotionSource motion);
 
 }  // namespace place
