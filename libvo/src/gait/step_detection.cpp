@@ -46,8 +46,9 @@ std::vector<Step> signed_extrema(std::span<const double> signal_deg, std::span<c
   return extrema;
 }
 
-/// ratio * median(differences of the last pairs), over steps not parted by a pause; 0 without a pair.
-double dynamic_threshold_deg(const std::vector<Step>& steps, double now_s,
+/// ratio * median(differences of the last pairs), over steps not parted by a pause; without a pair, what one
+/// of average steps would give, less for a first step.
+double dynamic_threshold_deg(const std::vector<Step>& steps, double now_s, double average_deg,
                              const StepDetectionOptions& options) {
   std::vector<double> differences;
   double after_s = now_s;
@@ -56,7 +57,8 @@ double dynamic_threshold_deg(const std::vector<Step>& steps, double now_s,
     if (i < steps.size()) differences.push_back(std::abs(steps[i].value_deg - steps[i - 1].value_deg));
     after_s = steps[i - 1].time_s;
   }
-  return differences.empty() ? 0 : options.delta_dyn_ratio * median(std::move(differences));
+  if (differences.empty()) differences = {2 * average_deg * options.first_step_ratio};
+  return options.delta_dyn_ratio * median(std::move(differences));
 }
 
 /// Adds a step, unless it is the last one seen again: on its side within one and a half steps, or within half
@@ -137,7 +139,7 @@ StepDetection detect_steps(std::span<const double> signal_deg, std::span<const d
     const auto here = result.delta_dyn_deg.begin() + static_cast<std::ptrdiff_t>(extremum.frame);
     std::fill(drawn, here, delta_dyn_deg);
     drawn = here;
-    delta_dyn_deg = dynamic_threshold_deg(result.steps, extremum.time_s, options);
+    delta_dyn_deg = dynamic_threshold_deg(result.steps, extremum.time_s, average, options);
     if (value_deg > delta_dyn_deg) add_step(result.steps, extremum, step_s);
   }
   std::fill(drawn, result.delta_dyn_deg.end(), delta_dyn_deg);
