@@ -82,10 +82,7 @@ std::vector<std::string> arguments_from_config(const std::string& file, const CL
     // Tried on an app of its own, so that the message names the file and the key.
     Settings scratch;
     CLI::App trial;
-    add_frame_options(trial, scratch);
-    add_sampling_options(trial, scratch);
-    add_search_options(trial, scratch);
-    add_general_options(trial, scratch);
+    add_all_options(trial, scratch);
     std::string argument = fmt::format("--{}={}", key, item.inputs.front());
     try {
       trial.parse(std::vector<std::string>{argument});

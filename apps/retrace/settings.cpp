@@ -185,14 +185,18 @@ void add_general_options(CLI::App& app, Settings& s) {
       ->check(CLI::Range(0, 1024));
 }
 
+void add_all_options(CLI::App& app, Settings& settings) {
+  add_frame_options(app, settings);
+  add_sampling_options(app, settings);
+  add_odometry_options(app, settings);
+  add_search_options(app, settings);
+  add_general_options(app, settings);
+}
+
 std::vector<SettingEntry> entries(const Settings& settings) {
   Settings copy = settings;
   CLI::App app;
-  add_frame_options(app, copy);
-  add_sampling_options(app, copy);
-  add_odometry_options(app, copy);
-  add_search_options(app, copy);
-  add_general_options(app, copy);
+  add_all_options(app, copy);
   std::vector<SettingEntry> all;
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_lnames().empty() || option->get_lnames().front() == "help") continue;

@@ -39,6 +39,8 @@ void add_odometry_options(CLI::App& app, Settings& settings);
 void add_search_options(CLI::App& app, Settings& settings);
 /// What every command has.
 void add_general_options(CLI::App& app, Settings& settings);
+/// All of these.
+void add_all_options(CLI::App& app, Settings& settings);
 
 /// One setting as text.
 struct SettingEntry {

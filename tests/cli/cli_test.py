@@ -2,6 +2,7 @@
 """The program as a user calls it: the road from walks to metrics, what it refuses, and what it leaves behind."""
 
 import json
+import math
 import os
 import pathlib
 import re
@@ -27,6 +28,19 @@ def positions(speeds):
         all_of_them.append(where)
         where += speed
     return all_of_them
+
+
+def write_odometry(folder, poses, steps):
+    """What `retrace odometry` leaves, as far as its evaluation reads it: poses are (time_s, x_m, y_m, heading_deg)."""
+    folder.mkdir()
+    lines = []
+    for time_s, x_m, y_m, heading_deg in poses:
+        half_yaw = math.radians(90 - heading_deg) / 2
+        lines.append(f"{time_s:.6f} {x_m:.6f} {y_m:.6f} 0 0 0 {math.sin(half_yaw):.9f} {math.cos(half_yaw):.9f}\n")
+    (folder / "trajectory.tum").write_text("".join(lines))
+    rows_of_steps = [f"{i},{i},{i / 2},left,0,{i},0\n" for i in range(steps)]
+    (folder / "steps.csv").write_text("step,frame,time_s,leg,x_m,y_m,heading_deg\n" + "".join(rows_of_steps))
+    return folder
 
 
 class Fixture:
@@ -119,6 +133,69 @@ class CliTest(unittest.TestCase):
         inside = sum(int(row["query_frame"]) <= 150 for row in rows(run_folder / "matches.csv"))
         self.assertEqual(metrics["with_truth"], inside)
         self.assertLess(metrics["accepted"]["precision"], 0.6)
+
+    def test_evaluates_odometry_by_the_paper_s_protocol(self):
+        # The truth goes 120 m north at 1 m/s; the estimate is a tenth too long, and 5 m to the side.
+        truth = self.folder / "truth.csv"
+        truth.write_text("frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n" +
+                         "".join(f"{i},{i},0,{i},0,{i},{i * 3 // 2}\n" for i in range(121)))
+        walk = write_odometry(self.folder / "walk", [(i, 5, 1.1 * i, 0) for i in range(121)], steps=171)
+        shown = check("evaluate-odometry", walk, "--truth", truth)
+        self.assertIn("steps: 171, truly 180, error 5.00 %", shown)
+        metrics = read_json(walk / "odometry_metrics.json")
+        self.assertEqual((metrics["steps_estimated"], metrics["steps_true"]), (171, 180))
+        self.assertAlmostEqual(metrics["step_error_pct"], 5)
+        for at_m in ("5", "10", "25", "50", "75", "100"):
+            # Six decimals in the file.
+            self.assertAlmostEqual(metrics["euclidean_error_m"][at_m], 0.1 * float(at_m), places=4)
+            self.assertAlmostEqual(metrics["euclidean_error_sd_m"][at_m], 0, places=4)
+            self.assertAlmostEqual(metrics["heading_error_deg"][at_m], 0, places=4)
+            self.assertEqual(metrics["measurements"][at_m], 25)
+        self.assertEqual(json.loads(check("evaluate-odometry", walk, "--truth", truth, "--json")), metrics)
+
+        # The same way on a map of 0.5 m a pixel, up being north: by shares of the way, the estimate is a tenth too long.
+        way = self.folder / "way.csv"
+        way.write_text("x_px,y_px\n40,300\n40,60\n")
+        check("evaluate-odometry", walk, "--truth", way, "--map-scale-m-per-px", "0.5", "--true-steps", "171", "--segment-m", "50")
+        metrics = read_json(walk / "odometry_metrics.json")
+        self.assertEqual(metrics["step_error_pct"], 0)
+        self.assertAlmostEqual(metrics["distance_m"], 120)
+        self.assertAlmostEqual(metrics["euclidean_error_m"]["50"], 5, places=4)
+        self.assertIsNone(metrics["euclidean_error_m"]["75"])
+        self.assertEqual(metrics["measurements"]["75"], 0)
+
+    def test_other_seeds_measure_other_segments(self):
+        truth = self.folder / "truth.csv"
+        truth.write_text("frame,time_s,x_m,y_m,heading_deg,distance_m\n" + "".join(f"{i},{i},0,{i},0,{i}\n" for i in range(201)))
+        # Its steps grow longer and longer, so that errors depend on where a segment starts.
+        walk = write_odometry(self.folder / "walk", [(i, 0, i + i * i / 500, 0) for i in range(201)], steps=10)
+        results = [check("evaluate-odometry", walk, "--truth", truth, "--json", "--seed", seed) for seed in ("1", "1", "2")]
+        self.assertEqual(results[0], results[1])
+        first, other = json.loads(results[0]), json.loads(results[2])
+        self.assertNotEqual(first["euclidean_error_m"]["10"], other["euclidean_error_m"]["10"])
+        self.assertGreater(first["euclidean_error_sd_m"]["10"], 0)
+        self.assertIsNone(first["steps_true"])
+        self.assertIsNone(first["step_error_pct"])
+
+    def test_refuses_odometry_and_truth_that_do_not_fit(self):
+        walk = write_odometry(self.folder / "walk", [(i, 0, i, 0) for i in range(50)], steps=5)
+        truth, way, point = self.folder / "truth.csv", self.folder / "way.csv", self.folder / "point.csv"
+        truth.write_text("frame,time_s,x_m,y_m,heading_deg,distance_m\n" + "".join(f"{i},{i},0,{i},0,{i}\n" for i in range(4)))
+        way.write_text("x_px,y_px\n0,0\n0,9\n")
+        point.write_text("x_px,y_px\n3,3\n3,3\n")
+        empty = self.folder / "empty"
+        empty.mkdir()
+        evaluate = ("evaluate-odometry", walk, "--truth")
+        self.refused(*evaluate, truth, says="the trajectory share 3.0 m; expected 5 m or more")
+        self.refused(*evaluate, self.folder / "none.csv", says="none.csv: does not exist")
+        self.refused(*evaluate, way, says="expected --map-scale-m-per-px")
+        self.refused(*evaluate, truth, "--map-scale-m-per-px", "1", says="has no column 'x_px'")
+        self.refused(*evaluate, point, "--map-scale-m-per-px", "1", says="point.csv: is no way")
+        self.refused(*evaluate, way, "--map-scale-m-per-px", "0", says="--map-scale-m-per-px", code=2)
+        self.refused("evaluate-odometry", self.folder / "nowhere", "--truth", truth, says="nowhere: is no folder")
+        self.refused("evaluate-odometry", empty, "--truth", truth, says="steps.csv: does not exist")
+        (walk / "trajectory.tum").write_text("0 1 2\n")
+        self.refused(*evaluate, truth, says="trajectory.tum: line 1: is not 8 numbers")
 
     def test_a_second_traverse_joins_the_route(self):
         route = self.folder / "route.db"
@@ -344,7 +421,7 @@ class CliTest(unittest.TestCase):
     # ---- help ----
 
     def test_help_shows_units_defaults_and_examples(self):
-        for command in ("build", "localise", "evaluate", "inspect", "config"):
+        for command in ("build", "localise", "evaluate", "evaluate-odometry", "inspect", "config"):
             text = check(command, "--help")
             self.assertIn("Example", text)
             self.assertIn(f"retrace {command}", text)

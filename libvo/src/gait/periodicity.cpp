@@ -19,8 +19,22 @@ double correlation(std::span<const double> x, std::size_t lag) {
   return power > 0 ? std::inner_product(early.begin(), early.end(), late.begin(), 0.0) / power : 0;
 }
 
-Periodicity periodicity_of(std::span<const double> window, double rate_hz,
+/// A stretch of the signal, cut off at twice the upper quartile of its size: a sinusoid is left as it is, but
+/// a few wild values do not outweigh the rest.
+std::vector<double> without_outliers(std::span<const double> signal_deg) {
+  std::vector<double> size(signal_deg.size());
+  std::ranges::transform(signal_deg, size.begin(), [](double value) { return std::abs(value); });
+  const auto quartile = size.begin() + static_cast<std::ptrdiff_t>(size.size() * 3 / 4);
+  std::ranges::nth_element(size, quartile);
+  const double limit = 2 * *quartile;
+  std::vector<double> cut(signal_deg.begin(), signal_deg.end());
+  for (double& value : cut) value = std::clamp(value, -limit, limit);
+  return cut;
+}
+
+Periodicity periodicity_of(std::span<const double> signal_deg, double rate_hz,
                            const PeriodicityOptions& options) {
+  const std::vector<double> window = without_outliers(signal_deg);
   Periodicity result;
   result.amplitude_deg = std::sqrt(2 * std::inner_product(window.begin(), window.end(), window.begin(), 0.0) /
                                    static_cast<double>(window.size()));
@@ -63,6 +77,7 @@ std::vector<Periodicity> stride_periodicity(std::span<const double> signal_deg, 
     const std::size_t begin = std::min(frame - std::min(frame, length / 2), frames - length);
     windows.push_back(periodicity_of(signal_deg.subspan(begin, length), rate_hz, options));
     windows.back().frame = frame;
+    windows.back().reach = length / 2;
   }
   for (std::size_t begin = 0, end = 0; begin < windows.size(); begin = end + 1) {
     for (end = begin; end < windows.size() && windows[end].strength >= options.min_strength;) ++end;
@@ -88,6 +103,35 @@ std::optional<double> gait_amplitude_deg(std::span<const Periodicity> windows) {
     if (below >= power / 2) return amplitude;
   }
   return std::nullopt;
+}
+
+std::vector<double> local_gait_amplitude_deg(std::span<const Periodicity> windows, std::size_t frames) {
+  std::vector<double> local(frames, 0);
+  std::vector<double> covering;
+  for (std::size_t frame = 0, first = 0; frame < frames; ++frame) {
+    while (first < windows.size() && windows[first].frame + windows[first].reach < frame) ++first;
+    covering.clear();
+    for (std::size_t i = first; i < windows.size() && windows[i].frame <= frame + windows[i].reach; ++i)
+      if (windows[i].gait) covering.push_back(windows[i].amplitude_deg);
+    if (covering.empty()) continue;
+    const auto median = covering.begin() + static_cast<std::ptrdiff_t>(covering.size() / 2);
+    std::ranges::nth_element(covering, median);
+    local[frame] = *median;
+  }
+  return local;
+}
+
+const Periodicity& nearest_window(std::span<const Periodicity> windows, std::size_t frame) {
+  if (windows.empty()) throw std::invalid_argument("nearest_window: a window expected");
+  const std::size_t hop = windows.size() > 1 ? windows[1].frame : 1;
+  return windows[std::min((frame + hop / 2) / hop, windows.size() - 1)];
+}
+
+double sinusoid_amplitude_deg(std::span<const double> signal_deg, std::size_t frame, std::size_t reach) {
+  const std::size_t begin = frame - std::min(frame, reach);
+  const auto part = signal_deg.subspan(begin, std::min(signal_deg.size(), frame + reach + 1) - begin);
+  return std::sqrt(2 * std::inner_product(part.begin(), part.end(), part.begin(), 0.0) /
+                   static_cast<double>(part.size()));
 }
 
 }  // namespace vo

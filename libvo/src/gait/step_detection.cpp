@@ -28,39 +28,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The window whose middle is nearest to a frame.
-const Periodicity& window_at(const std::vector<Periodicity>& windows, std::size_t frame) {
-  const std::size_t hop = windows.size() > 1 ? windows[1].frame : 1;
-  return windows[std::min((frame + hop / 2) / hop, windows.size() - 1)];
-}
-
-/// At each frame, the amplitude of an average step about it: the median of the windows of gait that cover the
-/// frame; 0 where none does.
-std::vector<double> average_step_deg(const std::vector<Periodicity>& windows, std::size_t frames,
-                                     std::size_t reach) {
-  std::vector<double> average(frames, 0);
-  std::vector<double> covering;
-  std::size_t first = 0;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    while (first < windows.size() && windows[first].frame + reach < frame) ++first;
-    covering.clear();
-    for (std::size_t i = first; i < windows.size() && windows[i].frame <= frame + reach; ++i)
-      if (windows[i].gait) covering.push_back(windows[i].amplitude_deg);
-    if (!covering.empty()) average[frame] = median(covering);
-  }
-  return average;
-}
-
-/// The amplitude of a sinusoid with the power of the stride about a frame, from a step before to a step
-/// after.
-double stride_amplitude_deg(std::span<const double> signal_deg, std::size_t frame, double step_frames) {
-  const auto reach = static_cast<std::size_t>(std::lround(step_frames));
-  const std::size_t begin = frame - std::min(frame, reach);
-  const auto stride = signal_deg.subspan(begin, std::min(signal_deg.size(), frame + reach + 1) - begin);
-  return std::sqrt(2 * std::inner_product(stride.begin(), stride.end(), stride.begin(), 0.0) /
-                   static_cast<double>(stride.size()));
-}
-
 /// Extrema that obey the sign rule, where a plateau is one extremum at its first frame.
 std::vector<Step> signed_extrema(std::span<const double> signal_deg, std::span<const double> time_s) {
   std::vector<Step> extrema;
@@ -79,8 +46,9 @@ std::vector<Step> signed_extrema(std::span<const double> signal_deg, std::span<c
   return extrema;
 }
 
-/// ratio * median(differences of the last pairs), over steps not parted by a pause; 0 without a pair.
-double dynamic_threshold_deg(const std::vector<Step>& steps, double now_s,
+/// ratio * median(differences of the last pairs), over steps not parted by a pause; without a pair, what one
+/// of average steps would give, less for a first step.
+double dynamic_threshold_deg(const std::vector<Step>& steps, double now_s, double average_deg,
                              const StepDetectionOptions& options) {
   std::vector<double> differences;
   double after_s = now_s;
@@ -89,7 +57,8 @@ double dynamic_threshold_deg(const std::vector<Step>& steps, double now_s,
     if (i < steps.size()) differences.push_back(std::abs(steps[i].value_deg - steps[i - 1].value_deg));
     after_s = steps[i - 1].time_s;
   }
-  return differences.empty() ? 0 : options.delta_dyn_ratio * median(std::move(differences));
+  if (differences.empty()) differences = {2 * average_deg * options.first_step_ratio};
+  return options.delta_dyn_ratio * median(std::move(differences));
 }
 
 /// Adds a step, unless it is the last one seen again: on its side within one and a half steps, or within half
@@ -114,7 +83,8 @@ std::size_t bridge(std::vector<Step>& steps, std::span<const double> signal_deg,
     if (i > 0) {
       const Step &a = steps[i - 1], &b = steps[i];
       const double gap_s = b.time_s - a.time_s;
-      const double step_s = (window_at(windows, a.frame).step_s + window_at(windows, b.frame).step_s) / 2;
+      const double step_s =
+          (nearest_window(windows, a.frame).step_s + nearest_window(windows, b.frame).step_s) / 2;
       // Steps from a to b: odd if they are of different legs.
       const double odd = a.leg == b.leg ? 0 : 1;
       const double count = step_s > 0 ? 2 * std::round((gap_s / step_s - odd) / 2) + odd : 1;
@@ -154,8 +124,7 @@ StepDetection detect_steps(std::span<const double> signal_deg, std::span<const d
     if (!average) return result;
     result.delta_min_deg = options.delta_min_ratio * *average;
   }
-  const std::vector<double> average_deg = average_step_deg(
-      windows, signal_deg.size(), static_cast<std::size_t>(options.periodicity.window_s * rate_hz / 2));
+  const std::vector<double> average_deg = local_gait_amplitude_deg(windows, signal_deg.size());
 
   auto drawn = result.delta_dyn_deg.begin();
   double delta_dyn_deg = 0;
@@ -163,13 +132,14 @@ StepDetection detect_steps(std::span<const double> signal_deg, std::span<const d
     const double value_deg = std::abs(extremum.value_deg);
     const double average = average_deg[extremum.frame];
     if (value_deg < *result.delta_min_deg || !reliable[extremum.frame] || average == 0) continue;
-    const double step_s = window_at(windows, extremum.frame).step_s;
-    if (stride_amplitude_deg(signal_deg, extremum.frame, step_s * rate_hz) < options.stride_ratio * average)
+    const double step_s = nearest_window(windows, extremum.frame).step_s;
+    const auto step_frames = static_cast<std::size_t>(std::lround(step_s * rate_hz));
+    if (sinusoid_amplitude_deg(signal_deg, extremum.frame, step_frames) < options.stride_ratio * average)
       continue;
     const auto here = result.delta_dyn_deg.begin() + static_cast<std::ptrdiff_t>(extremum.frame);
     std::fill(drawn, here, delta_dyn_deg);
     drawn = here;
-    delta_dyn_deg = dynamic_threshold_deg(result.steps, extremum.time_s, options);
+    delta_dyn_deg = dynamic_threshold_deg(result.steps, extremum.time_s, average, options);
     if (value_deg > delta_dyn_deg) add_step(result.steps, extremum, step_s);
   }
   std::fill(drawn, result.delta_dyn_deg.end(), delta_dyn_deg);

@@ -93,13 +93,60 @@ TEST(StridePeriodicity, RefusesWhatMakesNoSense) {
 TEST(GaitAmplitude, IsTheMedianOfPower) {
   // Powers 1, 1, 4, 9 of gait, 15 in all: half of it, 7.5, is reached in the window of amplitude 3.
   const auto window = [](double amplitude, bool gait) {
-    return vo::Periodicity{.frame = 0, .strength = 0, .step_s = 0, .amplitude_deg = amplitude, .gait = gait};
+    vo::Periodicity result;
+    result.amplitude_deg = amplitude;
+    result.gait = gait;
+    return result;
   };
   EXPECT_EQ(vo::gait_amplitude_deg(std::vector{window(3, true), window(1, true), window(2, true),
                                                window(1, true), window(100, false)}),
             3);
   EXPECT_FALSE(vo::gait_amplitude_deg(std::vector{window(100, false)}).has_value());
   EXPECT_FALSE(vo::gait_amplitude_deg({}).has_value());
+}
+
+TEST(StridePeriodicity, IsNotLedAstrayByAFewWildValues) {
+  GaitSignal walk = GaitSignal().walk(40, 1.9, 1, 0.1);
+  auto signal = walk.deg();
+  for (const std::size_t i : {200U, 201U, 202U, 300U}) signal[i] = 30;
+  for (const vo::Periodicity& window : vo::stride_periodicity(signal, 25)) {
+    EXPECT_TRUE(window.gait) << window.frame;
+    // The wave with its harmonic and noise has amplitude sqrt(1.06); 4 of 125 values cut off at some 2.1 add
+    // 0.28 to its square. As they were, they would make it 7.7.
+    EXPECT_NEAR(window.amplitude_deg, 1, 0.16) << window.frame;
+  }
+}
+
+TEST(LocalGaitAmplitude, IsTheMedianOfTheWindowsThatCoverAFrame) {
+  std::vector<vo::Periodicity> windows(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    windows[i].frame = 2 * i;
+    windows[i].reach = 3;
+    windows[i].amplitude_deg = static_cast<double>(10 - i);
+    windows[i].gait = i != 1;
+  }
+  // Windows 0, 2, 3 of gait reach over frames 0-3, 1-7, 3-9; of two, the median is the upper.
+  EXPECT_THAT(vo::local_gait_amplitude_deg(windows, 11),
+              testing::ElementsAre(10, 10, 10, 8, 8, 8, 8, 8, 7, 7, 0));
+  EXPECT_THAT(vo::local_gait_amplitude_deg({}, 2), testing::ElementsAre(0, 0));
+}
+
+TEST(NearestWindow, IsByTheMiddle) {
+  std::vector<vo::Periodicity> windows(3);
+  for (std::size_t i = 0; i < 3; ++i) windows[i].frame = 5 * i;
+  const auto frame_of = [&](std::size_t frame) { return vo::nearest_window(windows, frame).frame; };
+  EXPECT_EQ(frame_of(2), 0U);
+  EXPECT_EQ(frame_of(3), 5U);
+  EXPECT_EQ(frame_of(7), 5U);
+  EXPECT_EQ(frame_of(100), 10U);
+  EXPECT_THROW(vo::nearest_window({}, 0), std::invalid_argument);
+}
+
+TEST(SinusoidAmplitude, IsByHandAndCutOffAtTheEnds) {
+  const std::vector<double> signal{3, 0, 0, 1, 1};
+  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude_deg(signal, 2, 1), std::sqrt(2.0 / 3));
+  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude_deg(signal, 0, 1), 3);
+  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude_deg(signal, 4, 1), std::sqrt(2.0));
 }
 
 }  // namespace

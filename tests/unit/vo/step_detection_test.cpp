@@ -26,7 +26,8 @@ vo::StepDetection detect(const GaitSignal& signal, const vo::StepDetectionOption
 
 /// Everything the thresholds of the paper do, without what was put before them.
 vo::StepDetectionOptions paper_only(double delta_min_deg) {
-  vo::StepDetectionOptions options{.delta_min_deg = delta_min_deg, .stride_ratio = 0, .max_bridged_s = 0};
+  vo::StepDetectionOptions options{
+      .delta_min_deg = delta_min_deg, .first_step_ratio = 0, .stride_ratio = 0, .max_bridged_s = 0};
   options.periodicity.min_strength = -1;
   options.periodicity.min_gait_s = 0;
   return options;

@@ -62,7 +62,7 @@ TEST(StepLengths, WithoutAReferenceAreTheLengthOnAverage) {
 TEST(StepLengths, StayWithinTheBoundsOfCadence) {
   const vo::StepLengthOptions options{.length_m = 0.7, .reference_cadence_hz = 2};
   EXPECT_THAT(vo::step_lengths_m(steps_at({0, 1, 2, 3}), options), Each(DoubleEq(0.7 * 98 / 60 / 2)));
-  EXPECT_THAT(vo::step_lengths_m(steps_at({0, 0.3, 0.6, 0.9}), options), Each(DoubleEq(0.7 * 144 / 60 / 2)));
+  EXPECT_THAT(vo::step_lengths_m(steps_at({0, 0.3, 0.6, 0.9}), options), Each(DoubleEq(0.7 * 140 / 60 / 2)));
 }
 
 TEST(StepLengths, OfNoneOneAndLoneSteps) {

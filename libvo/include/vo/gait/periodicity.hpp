@@ -20,9 +20,10 @@ struct PeriodicityOptions {
 /// How much like gait a stretch of the orientation signal is.
 struct Periodicity {
   std::size_t frame = 0;     ///< middle of the window
+  std::size_t reach = 0;     ///< frames it has to either side
   double strength = 0;       ///< -1 to 1; 1 where each stride is as the last, and its halves are opposites
   double step_s = 0;         ///< half a stride; 0 if nothing could be compared
-  double amplitude_deg = 0;  ///< of a sinusoid with the window's power
+  double amplitude_deg = 0;  ///< of a sinusoid with the window's power, wild values cut off
   bool gait = false;         ///< strong enough, and for long enough
 };
 
@@ -34,6 +35,8 @@ struct Periodicity {
 /// r(stride / 2)) / 2, where r(lag) is the correlation of the window with itself, and the stride is the lag
 /// of the largest; the shortest of those that come within a tenth of it, as three strides are as alike as
 /// one. Noise has neither; breathing, sway and drift are slower and have no opposite half.
+///
+/// Values beyond twice the upper quartile of their size in the window are cut off there.
 ///
 /// With the defaults, white noise through the low-pass of 4 Hz at 25 frames/s is taken for gait some 0.2
 /// times an hour, noise that wanders (a random walk with a memory of 0.8 s) some 4 times.
@@ -48,5 +51,15 @@ std::vector<Periodicity> stride_periodicity(std::span<const double> signal_deg, 
 /// The amplitude of an average step: the median of the windows of gait, each weighted by its power, so that a
 /// few chance hits in a long stand do not outvote a short walk. None if there is no gait. O(n log n).
 std::optional<double> gait_amplitude_deg(std::span<const Periodicity> windows);
+
+/// At each frame, the amplitude of an average step about it: the median of the windows of gait that cover the
+/// frame; 0 where none does. Windows as from `stride_periodicity`. O(frames * windows that cover a frame).
+std::vector<double> local_gait_amplitude_deg(std::span<const Periodicity> windows, std::size_t frames);
+
+/// The window whose middle is nearest to a frame. Throws `std::invalid_argument` if there is none. O(1).
+const Periodicity& nearest_window(std::span<const Periodicity> windows, std::size_t frame);
+
+/// The amplitude of a sinusoid with the power that the signal has within `reach` frames of a frame.
+double sinusoid_amplitude_deg(std::span<const double> signal_deg, std::size_t frame, std::size_t reach);
 
 }  // namespace vo

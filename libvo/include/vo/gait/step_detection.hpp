@@ -25,8 +25,10 @@ struct StepDetectionOptions {
   double delta_min_ratio = 0.25;  ///< learned delta_min, as a share of an average step's value [PVO 5.3 (3)]
   double delta_dyn_ratio = 0.25;  ///< dynamic threshold, of the median difference of a pair [PVO 5.3 (3)]
   std::size_t pairs = 5;  ///< left and right steps in succession, of which the median is taken [PVO 5.3 (3)]
+  double first_step_ratio =
+      0.75;  ///< size of a first step: average pairs of so much stand for those not yet seen
   double stride_ratio =
-      0.5;  ///< least amplitude of the stride about a step, as a share of the gait's around it
+      0.35;  ///< least amplitude of the stride about a step, as a share of the gait's around it
   double pause_s =
       1.5;  ///< longest step; after a longer gap both dynamic threshold and alternation begin anew
   double max_bridged_s = 5;        ///< longest gap between two steps to be filled by cadence; 0 fills none
@@ -51,7 +53,9 @@ struct StepDetection {
 /// - delta_min is set by hand for each person there. Not given, it is a quarter of the amplitude of the
 ///   stretches that are like gait (`gait_amplitude_deg`); where there are none, there are no steps.
 /// - A step lies in a stretch that is like gait (`stride_periodicity`), so that neither noise above the
-///   thresholds nor a blank wall (Fig. 6) breeds steps.
+///   thresholds nor a blank wall (Fig. 6) breeds steps; and the stride about it is not far smaller than those
+///   of the gait around it, as it would be in a stand beside it.
+/// - There is a dynamic threshold before the first pair as well, where PVO's has yet to grow (Fig. 3).
 /// - Two steps, like two on one side, are one if they follow faster than 1 / max_step_hz.
 /// - After a gap longer than `pause_s` the walker has stood, or steps have been lost: steps before it say
 ///   nothing of the next one's leg, nor, as one may have run before and stroll after, of its size.

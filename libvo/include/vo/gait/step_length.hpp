@@ -21,7 +21,7 @@ struct StepLengthOptions {
   std::optional<double>
       reference_cadence_hz;            ///< steps per second it was measured at; none: this walk's own mean
   double min_cadence_hz = 98.0 / 60;   ///< below, steps do not get shorter [Murakami and Otaka 2017]
-  double max_cadence_hz = 144.0 / 60;  ///< above, one runs, where cadence tells little of length
+  double max_cadence_hz = 140.0 / 60;  ///< above, one runs (see activity), and cadence tells little of length
   double pause_s = 1.5;                ///< a longer gap between two steps says nothing of cadence
 };
 

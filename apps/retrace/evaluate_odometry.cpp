@@ -1,0 +1,166 @@
+#include "command.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <vo/base/error.hpp>
+#include <vo/gait/odometry_evaluation.hpp>
+#include <vo/io/atomic_file.hpp>
+#include <vo/io/csv.hpp>
+#include <vo/io/trajectory_io.hpp>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr std::string_view kProtocol =
+    "Random segments, at whose start the trajectory is put at the true place and heading; errors at "
+    "distances "
+    "truly travelled from there (PVO 5.2). Heading errors are estimate minus truth, clockwise.";
+
+struct EvaluateOdometryOptions {
+  CommonOptions common;
+  std::string folder;  ///< written by `retrace odometry`
+  std::string truth;   ///< truth.csv, or a way on a map
+  std::optional<double> map_scale_m_per_px;
+  std::optional<std::size_t> true_steps;
+  vo::OdometryEvaluationOptions evaluation;
+};
+
+/// The truth: poses with times, or else a way.
+struct Truth {
+  std::optional<std::size_t> steps;
+  vo::WalkTruth walk;
+  std::vector<vo::WayPoint> way;
+};
+
+std::vector<vo::WayPoint> read_way(const vo::CsvTable& table, const std::string& path,
+                                   double scale_m_per_px) {
+  const std::vector<double> x_px = table.numbers("x_px");
+  const std::vector<double> y_px = table.numbers("y_px");
+  std::vector<vo::WayPoint> way;
+  bool moves = false;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    way.push_back({x_px[i] * scale_m_per_px, -y_px[i] * scale_m_per_px});  // down on the map is south
+    moves = moves || x_px[i] != x_px[0] || y_px[i] != y_px[0];
+  }
+  if (!moves) throw vo::Error(path, "is no way", "two points or more of different places");
+  return way;
+}
+
+Truth read_truth(const EvaluateOdometryOptions& options) {
+  const vo::CsvTable table = vo::CsvTable::read(options.truth);
+  Truth truth;
+  if (table.has("x_px")) {
+    if (!options.map_scale_m_per_px)
+      throw vo::Error(options.truth, "is a way on a map",
+                      "--map-scale-m-per-px, the metres of one of its pixels");
+    truth.way = read_way(table, options.truth, *options.map_scale_m_per_px);
+  } else {
+    if (options.map_scale_m_per_px)
+      throw vo::Error(options.truth, "has no column 'x_px'", "a way on a map, with --map-scale-m-per-px");
+    truth.walk = vo::read_truth(options.truth);
+    if (!truth.walk.steps.empty()) truth.steps = static_cast<std::size_t>(truth.walk.steps.back());
+  }
+  if (options.true_steps) truth.steps = options.true_steps;
+  return truth;
+}
+
+ordered_json metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
+                          const vo::OdometryEvaluation& evaluation,
+                          const vo::OdometryEvaluationOptions& options) {
+  ordered_json json{{"steps_estimated", steps},     {"steps_true", nullptr},
+                    {"step_error_pct", nullptr},    {"distance_m", evaluation.distance_m},
+                    {"segments", options.segments}, {"segment_m", evaluation.segment_m},
+                    {"seed", options.seed}};
+  if (true_steps) json["steps_true"] = *true_steps;
+  if (true_steps && *true_steps > 0) json["step_error_pct"] = vo::step_error_pct(steps, *true_steps);
+  const auto add = [&](const char* name, double vo::OdometryErrors::*value) {
+    for (const vo::OdometryErrors& errors : evaluation.errors)
+      json[name][fmt::format("{}", errors.at_m)] = errors.count > 0 ? ordered_json(errors.*value) : nullptr;
+  };
+  add("euclidean_error_m", &vo::OdometryErrors::euclidean_mean_m);
+  add("euclidean_error_sd_m", &vo::OdometryErrors::euclidean_sd_m);
+  add("heading_error_deg", &vo::OdometryErrors::heading_mean_deg);
+  add("heading_error_sd_deg", &vo::OdometryErrors::heading_sd_deg);
+  add("heading_absolute_error_deg", &vo::OdometryErrors::heading_abs_mean_deg);
+  for (const vo::OdometryErrors& errors : evaluation.errors)
+    json["measurements"][fmt::format("{}", errors.at_m)] = errors.count;
+  json["protocol"] = kProtocol;
+  return json;
+}
+
+void evaluate_odometry(const EvaluateOdometryOptions& options) {
+  const fs::path folder = options.folder;
+  if (!fs::is_directory(folder))
+    throw vo::Error(options.folder, "is no folder", "one written by `retrace odometry`");
+  const std::size_t steps = vo::CsvTable::read(folder / "steps.csv").rows();
+  const vo::Trajectory trajectory = vo::read_tum(folder / "trajectory.tum");
+  const Truth truth = read_truth(options);
+  const auto pairs = truth.way.empty() ? vo::pair_by_time(truth.walk.poses, truth.walk.distance_m, trajectory)
+                                       : vo::pair_by_share(truth.way, trajectory);
+  const vo::OdometryEvaluation evaluation = vo::evaluate_odometry(pairs, options.evaluation);
+  if (evaluation.segment_m == 0) {
+    throw vo::Error(options.truth, fmt::format("and the trajectory share {:.1f} m", evaluation.distance_m),
+                    fmt::format("{} m or more", options.evaluation.at_m.front()));
+  }
+  const ordered_json metrics = metrics_json(steps, truth.steps, evaluation, options.evaluation);
+  vo::write_file(folder / "odometry_metrics.json", metrics.dump(2) + "\n");
+  if (options.common.json) {
+    fmt::print("{}\n", metrics.dump(2));
+    return;
+  }
+  fmt::print("steps: {}", steps);
+  if (truth.steps) fmt::print(", truly {}", *truth.steps);
+  if (!metrics["step_error_pct"].is_null())
+    fmt::print(", error {:.2f} %", metrics["step_error_pct"].get<double>());
+  fmt::print("\n{:>7} {:>12} {:>16} {:>18}\n", "at m", "measurements", "position m", "heading deg");
+  for (const vo::OdometryErrors& errors : evaluation.errors) {
+    if (errors.count == 0) continue;
+    fmt::print("{:>7} {:>12} {:>16} {:>18}\n", errors.at_m, errors.count,
+               fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
+               fmt::format("{:.2f} +- {:.2f}", errors.heading_mean_deg, errors.heading_sd_deg));
+  }
+}
+
+}  // namespace
+
+Command add_evaluate_odometry(CLI::App& root) {
+  auto options = std::make_shared<EvaluateOdometryOptions>();
+  vo::OdometryEvaluationOptions& evaluation = options->evaluation;
+  CLI::App* app =
+      root.add_subcommand("evaluate-odometry", "steps and trajectory of a walk against the truth");
+  app->add_option("run", options->folder, "folder written by `retrace odometry`")->required();
+  app->add_option("--truth", options->truth,
+                  "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up")
+      ->required();
+  app->add_option("--map-scale-m-per-px", options->map_scale_m_per_px, "metres of one pixel of that map")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--true-steps", options->true_steps, "steps counted, where the truth has none")
+      ->check(CLI::Range(0, 1000000000));
+  app->add_option("--segments", evaluation.segments, "random segments measured [PVO 5.2]")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app->add_option("--segment-m", evaluation.segment_m,
+                  "metres of a segment [PVO 5.2: 50 indoors, 100 outdoors]")
+      ->capture_default_str()
+      ->check(CLI::Range(5.0, 1e6));
+  app->add_option("--seed", evaluation.seed, "of the segments' starts")->capture_default_str();
+  add_json_option(*app, options->common);
+  app->footer(
+      "Examples:\n"
+      "  retrace evaluate-odometry walk --truth truth.csv\n"
+      "  retrace evaluate-odometry walk --truth way.csv --map-scale-m-per-px 0.2 --true-steps 512 "
+      "--segment-m 50");
+  return {app, [options] { evaluate_odometry(*options); }};
+}
+
+}  // namespace retrace
