@@ -63,6 +63,10 @@ struct StepDetection {
 ///   strides of like cadence around it follows how many went into it, odd between two steps of one side, even
 ///   between left and right.
 ///
+/// A camera that stabilises its picture leaves no gait in the orientation, so that delta_min is none. The
+/// median x shift `without_drift`, in pixels for degrees, may be given instead then; which leg is which is
+/// not known from it, and steps are counted less surely.
+///
 /// `signal_deg`: one value per frame, low-passed, about 0, unreliable frames bridged before the filter;
 /// `time_s`: one per frame, increasing; `reliable`: one per frame, false where too few matches were found. No
 /// step is found at an unreliable frame. Throws `std::invalid_argument` for other sizes or options out of
