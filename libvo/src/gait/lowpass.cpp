@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -105,6 +106,12 @@ std::vector<double> lowpass_zero_phase(std::span<const double> signal, double ra
   for (auto value = extended.rbegin(); value != extended.rend(); ++value) *value = backwards.push(*value);
   const auto begin = extended.begin() + static_cast<std::ptrdiff_t>(pad);
   return {begin, begin + static_cast<std::ptrdiff_t>(signal.size())};
+}
+
+std::vector<double> without_drift(std::span<const double> signal, double rate_hz, double slowest_hz) {
+  std::vector<double> rest = lowpass_zero_phase(signal, rate_hz, {.order = 2, .cutoff_hz = slowest_hz});
+  std::ranges::transform(signal, rest, rest.begin(), std::minus{});
+  return rest;
 }
 
 }  // namespace vo

@@ -16,8 +16,9 @@ void check(std::span<const double> signal_deg, std::span<const double> time_s,
     throw std::invalid_argument("detect_steps: one time and one flag per frame expected");
   if (options.delta_min_deg && !(*options.delta_min_deg >= 0))
     throw std::invalid_argument("detect_steps: delta_min_deg >= 0 expected");
-  if (!(options.delta_min_ratio >= 0 && options.delta_dyn_ratio >= 0))
-    throw std::invalid_argument("detect_steps: threshold ratios >= 0 expected");
+  if (!(options.delta_min_ratio >= 0 && options.delta_dyn_ratio >= 0 && options.first_step_ratio >= 0 &&
+        options.stride_ratio >= 0))
+    throw std::invalid_argument("detect_steps: ratios >= 0 expected");
   if (options.pairs == 0 || !(options.pause_s > 0) || !(options.max_bridged_s >= 0))
     throw std::invalid_argument("detect_steps: pairs and pause_s above 0, max_bridged_s >= 0 expected");
 }

@@ -145,4 +145,18 @@ TEST(LowpassZeroPhase, OfVeryShortSignals) {
   EXPECT_THROW(vo::lowpass_zero_phase({}, 8), std::invalid_argument);
 }
 
+TEST(WithoutDrift, KeepsWhatALowpassTakes) {
+  // Strides at 1 Hz upon a turn: the line goes, and of the sinusoid goes what order 2 at 0.5 Hz, twice, lets
+  // through.
+  auto signal = sine(1000, 25, 1);
+  const double gain = 1 - analytic_power_gain(1, 25, 2, 0.5);
+  const auto strides = signal;
+  for (std::size_t i = 0; i < signal.size(); ++i) signal[i] += 0.1 * static_cast<double>(i);
+  const auto rest = vo::without_drift(signal, 25);
+  // In the middle, where the ends' ringing has died away: the filter loses a factor of e every 12 frames.
+  for (std::size_t i = 400; i < 600; ++i) EXPECT_NEAR(rest[i], gain * strides[i], 1e-9);
+  for (const double value : vo::without_drift(std::vector<double>(50, 7.0), 25)) EXPECT_NEAR(value, 0, 1e-12);
+  EXPECT_THAT(vo::without_drift({}, 25), IsEmpty());
+}
+
 }  // namespace

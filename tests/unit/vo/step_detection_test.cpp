@@ -209,6 +209,7 @@ TEST(DetectSteps, RefusesWhatMakesNoSense) {
   EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.delta_min_deg = -1}), std::invalid_argument);
   EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.delta_dyn_ratio = -1}), std::invalid_argument);
   EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.pairs = 0}), std::invalid_argument);
+  EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.stride_ratio = -1}), std::invalid_argument);
   EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.pause_s = 0}), std::invalid_argument);
 }
 

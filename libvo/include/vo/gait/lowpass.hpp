@@ -55,4 +55,10 @@ class Lowpass {
 std::vector<double> lowpass_zero_phase(std::span<const double> signal, double rate_hz,
                                        const LowpassOptions& options = {});
 
+/// The signal less what of it is slower than `slowest_hz`: itself minus its own zero-phase low-pass of order
+/// 2 there. Takes turns and drift out of a signal in which strides, of which the slowest has 0.5 Hz, are to
+/// be found: the median x shift swings with them as the orientation does, and where a camera holds its
+/// horizon steady by itself it is all that does. Throws as `Lowpass`.
+std::vector<double> without_drift(std::span<const double> signal, double rate_hz, double slowest_hz = 0.5);
+
 }  // namespace vo

@@ -25,12 +25,9 @@ struct StepDetectionOptions {
   double delta_min_ratio = 0.25;  ///< learned delta_min, as a share of an average step's value [PVO 5.3 (3)]
   double delta_dyn_ratio = 0.25;  ///< dynamic threshold, of the median difference of a pair [PVO 5.3 (3)]
   std::size_t pairs = 5;  ///< left and right steps in succession, of which the median is taken [PVO 5.3 (3)]
-  double first_step_ratio =
-      0.75;  ///< size of a first step: average pairs of so much stand for those not yet seen
-  double stride_ratio =
-      0.35;  ///< least amplitude of the stride about a step, as a share of the gait's around it
-  double pause_s =
-      1.5;  ///< longest step; after a longer gap both dynamic threshold and alternation begin anew
+  double first_step_ratio = 0.75;  ///< of an average step; stands in delta_dyn for pairs not yet seen
+  double stride_ratio = 0.35;      ///< least amplitude of the stride about a step, of the gait's around it
+  double pause_s = 1.5;            ///< longest step; after a longer gap, delta_dyn begins anew
   double max_bridged_s = 5;        ///< longest gap between two steps to be filled by cadence; 0 fills none
   PeriodicityOptions periodicity;  ///< what is gait; min_strength = -1 lets everything pass
 };
@@ -56,12 +53,19 @@ struct StepDetection {
 ///   thresholds nor a blank wall (Fig. 6) breeds steps; and the stride about it is not far smaller than those
 ///   of the gait around it, as it would be in a stand beside it.
 /// - There is a dynamic threshold before the first pair as well, where PVO's has yet to grow (Fig. 3).
-/// - Two steps, like two on one side, are one if they follow faster than 1 / max_step_hz.
-/// - After a gap longer than `pause_s` the walker has stood, or steps have been lost: steps before it say
-///   nothing of the next one's leg, nor, as one may have run before and stroll after, of its size.
+/// - Extrema on one side are one step seen twice only within one and a half steps of the local cadence;
+/// further
+///   apart, the one between was lost. Those on different sides are, too, within half a step; no cadence is
+///   faster than max_step_hz.
+/// - After a gap longer than `pause_s`, steps before it say nothing of the next one's size: the walker has
+///   stood, or ran before and strolls after.
 /// - Steps lost in a short gap are filled in and marked, unless the walker is seen to stand in it: from two
 ///   strides of like cadence around it follows how many went into it, odd between two steps of one side, even
 ///   between left and right.
+///
+/// A camera that stabilises its picture leaves no gait in the orientation, so that delta_min is none. The
+/// median x shift `without_drift`, in pixels for degrees, may be given instead then; which leg is which is
+/// not known from it, and steps are counted less surely.
 ///
 /// `signal_deg`: one value per frame, low-passed, about 0, unreliable frames bridged before the filter;
 /// `time_s`: one per frame, increasing; `reliable`: one per frame, false where too few matches were found. No
