@@ -3,6 +3,7 @@
 #include "run_directory.hpp"
 #include "settings.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -64,6 +65,29 @@ std::string steps_csv(const vo::PedestrianMotion& motion) {
   return csv;
 }
 
+constexpr std::string_view name_of(vo::Activity activity) {
+  switch (activity) {
+    case vo::Activity::kStanding:
+      return "standing";
+    case vo::Activity::kWalking:
+      return "walking";
+    case vo::Activity::kRunning:
+      return "running";
+    case vo::Activity::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::string activity_csv(const vo::PedestrianMotion& motion) {
+  std::string csv = "time_s,activity,amplitude_deg,step_hz\n";
+  for (const vo::ActivitySecond& second : motion.activity) {
+    csv += fmt::format("{:.3f},{},{:.6f},{:.4f}\n", second.time_s, name_of(second.activity),
+                       second.amplitude_deg, second.step_hz);
+  }
+  return csv;
+}
+
 ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, double step_length_m) {
   double distance_m = 0;
   for (const double moved_m : motion.displacement_m) distance_m += moved_m;
@@ -78,6 +102,11 @@ ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, d
                     {"delta_min_deg", nullptr},
                     {"warnings", walk.warnings},
                     {"version", place::kVersion}};
+  for (const vo::Activity activity :
+       {vo::Activity::kStanding, vo::Activity::kWalking, vo::Activity::kRunning, vo::Activity::kUnknown}) {
+    json["activity_s"][std::string(name_of(activity))] =
+        std::ranges::count(motion.activity, activity, &vo::ActivitySecond::activity);
+  }
   if (motion.detection.delta_min_deg) json["delta_min_deg"] = *motion.detection.delta_min_deg;
   return json;
 }
@@ -87,8 +116,9 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   vo::set_thread_count(settings.threads);
   resolve(app, settings);
   const fs::path folder = options.output;
-  prepare_run_directory(folder, {"frames.csv", "steps.csv", "trajectory.tum", "summary.json", "config.toml"},
-                        options.common.force);
+  prepare_run_directory(
+      folder, {"frames.csv", "steps.csv", "activity.csv", "trajectory.tum", "summary.json", "config.toml"},
+      options.common.force);
 
   settings.walk.preview_width_px = 0;
   settings.walk.track_features = true;
@@ -112,6 +142,7 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   const ordered_json json = summary(walk, motion, pedestrian.step_length.length_m);
   vo::write_file(folder / "frames.csv", frames_csv(walk, motion));
   vo::write_file(folder / "steps.csv", steps_csv(motion));
+  vo::write_file(folder / "activity.csv", activity_csv(motion));
   vo::write_file(
       folder / "trajectory.tum",
       vo::to_tum(motion.trajectory.at_frame, "pose of each frame, metres and radians since the first"));

@@ -130,6 +130,8 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
       step_displacement_m(steps, motion.step_length_m, walk.time_s, options.dead_reckoning);
   motion.trajectory = dead_reckon(steps, motion.step_length_m, signal.heading_rad, walk.time_s,
                                   options.dead_reckoning);  // 4.6
+  motion.activity =
+      detect_activity(signal.filtered_orientation_deg, walk.time_s, signal.reliable, options.activity);
   return motion;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "vo/base/progress.hpp"
+#include "vo/gait/activity.hpp"
 #include "vo/gait/dead_reckoning.hpp"
 #include "vo/gait/feature_tracker.hpp"
 #include "vo/gait/gait_signal.hpp"
@@ -80,6 +81,7 @@ struct PedestrianMotionOptions {
   StepDetectionOptions steps;
   StepLengthOptions step_length;
   DeadReckoningOptions dead_reckoning;
+  ActivityOptions activity;
 };
 
 /// Steps, heading and trajectory of a walk (PVO 4).
@@ -89,6 +91,7 @@ struct PedestrianMotion {
   std::vector<double> step_length_m;   ///< of each step
   std::vector<double> displacement_m;  ///< of each frame since the one before it; the first: 0
   DeadReckoning trajectory;            ///< from (0, 0), heading 0
+  std::vector<ActivitySecond> activity;
 };
 
 /// Gait signal -> steps -> step lengths -> displacement and trajectory, of a walk read with `track_features`.
