@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kHarmonics = kernels::kOrientationHarmonics;
 constexpr std::size_t kDirections = 64;  // at which the peak is looked for
 constexpr double kStep_rad = 2 * std::numbers::pi / kDirections;
-constexpr double kWindow_rad = 0.40;      // deviation of the window; that of Bay's 60 degrees is 0.30
-constexpr double kRadiusDeviation = 2.5;  // of the weights, in scales
-constexpr int kCoarser = 1;               // half octaves of smoothing more than the descriptor's
+constexpr double kWindow_rad = 0.40;    // deviation of the window; that of Bay's 60 degrees is 0.30
+constexpr double kRadiusDeviation = 3;  // of the weights, in scales
+constexpr int kCoarser = 3;             // half octaves of smoothing more than the descriptor's
 
 kernels::OrientationWeights make_weights() {
   kernels::OrientationWeights weights{};

@@ -21,7 +21,7 @@ Features detect_surf(const cv::Mat& grey, const SurfOptions& options) {
   if (features.points.empty()) return features;
 
   const float max_scale_px = std::ranges::max(features.points, {}, &Feature::scale_px).scale_px;
-  const SmoothPyramid pyramid = smooth_pyramid(grey, 2 * max_scale_px);
+  const SmoothPyramid pyramid = smooth_pyramid(grey, 3 * max_scale_px);
   features.descriptors.resize(features.size() * features.descriptor_size);
   parallel_for((features.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t end = std::min((chunk + 1) * kChunk, features.size());
