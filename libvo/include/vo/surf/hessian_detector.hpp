@@ -11,7 +11,8 @@ namespace vo {
 
 /// Which interest points are found.
 struct HessianOptions {
-  float threshold = 20;          ///< least determinant of the Hessian, grey levels^2; > 0
+  float threshold =
+      2;  ///< least determinant of the Hessian, grey levels^2, > 0; night and blank walls need a low one
   std::size_t max_points = 600;  ///< the strongest are kept; 0: all
   int octaves = 4;               ///< doublings of scale, 1 to 8 (Bay: 3 to 4)
   int intervals = 4;             ///< filters per octave, 3 to 6 (Bay: 4)
