@@ -95,6 +95,7 @@ ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, d
                     {"frames", walk.frames()},
                     {"duration_s", walk.time_s.back()},
                     {"steps", motion.detection.steps.size()},
+                    {"step_signal", motion.step_signal == vo::StepSignal::kShift ? "x shift" : "orientation"},
                     {"steps_bridged", motion.detection.bridged},
                     {"frames_bridged", motion.signal.bridged},
                     {"step_length_m", step_length_m},

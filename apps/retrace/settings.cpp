@@ -132,9 +132,9 @@ void add_odometry_options(CLI::App& app, Settings& s) {
               {"regions", vo::HeadingMethod::kRegions},
               {"naive", vo::HeadingMethod::kNaive}},
              "rotation of the essential matrix, or the x shift by regions or of all points [PVO 4.5]");
-  add(app, kOdometry, "--lowpass-order", pedestrian.lowpass.order, "order of the Butterworth filter")
+  add(app, kOdometry, "--lowpass-order", pedestrian.signal.lowpass.order, "order of the Butterworth filter")
       ->check(CLI::Range(1, 8));
-  add(app, kOdometry, "--lowpass-cutoff-hz", pedestrian.lowpass.cutoff_hz, "its cut-off [PVO 5.3]")
+  add(app, kOdometry, "--lowpass-cutoff-hz", pedestrian.signal.lowpass.cutoff_hz, "its cut-off [PVO 5.3]")
       ->check(CLI::PositiveNumber);
   add(app, kOdometry, "--min-step-deg", pedestrian.steps.delta_min_deg,
       "degrees of orientation change a frame, the static threshold; learned from the walk if not given [PVO "

@@ -115,23 +115,33 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
   if (walk.tracked.size() != walk.frames()) {
     throw std::invalid_argument("pedestrian_motion: a walk read with track_features expected");
   }
-  if (const double rate_hz = frame_rate_hz(walk.time_s); rate_hz <= 2 * options.lowpass.cutoff_hz) {
-    throw Error(walk.source, fmt::format("has {:.3g} frames/s, too few to see steps", rate_hz),
-                fmt::format("more than {:.3g}, twice the fastest steps", 2 * options.lowpass.cutoff_hz));
+  if (const double rate_hz = frame_rate_hz(walk.time_s); rate_hz <= 2 * options.signal.lowpass.cutoff_hz) {
+    throw Error(
+        walk.source, fmt::format("has {:.3g} frames/s, too few to see steps", rate_hz),
+        fmt::format("more than {:.3g}, twice the fastest steps", 2 * options.signal.lowpass.cutoff_hz));
   }
   PedestrianMotion motion;
-  motion.signal = gait_signal(walk.tracked, walk.time_s, options.lowpass);  // PVO 4.3, 4.5
+  motion.signal = gait_signal(walk.tracked, walk.time_s, options.signal);  // PVO 4.3, 4.5
   const GaitSignal& signal = motion.signal;
-  motion.detection =
-      detect_steps(signal.filtered_orientation_deg, walk.time_s, signal.reliable, options.steps);  // 4.4
+  const auto detect = [&](const std::vector<double>& values) {
+    return detect_steps(values, walk.time_s, signal.reliable, options.steps);  // 4.4
+  };
+  motion.detection = detect(signal.filtered_orientation_deg);
+  if (motion.detection.steps.empty() && !options.steps.delta_min_deg) {
+    if (StepDetection by_shift = detect(signal.filtered_shift_px); !by_shift.steps.empty()) {
+      motion.step_signal = StepSignal::kShift;
+      motion.detection = std::move(by_shift);
+    }
+  }
   const std::vector<Step>& steps = motion.detection.steps;
   motion.step_length_m = step_lengths_m(steps, options.step_length);  // 5.3 (4)
   motion.displacement_m =
       step_displacement_m(steps, motion.step_length_m, walk.time_s, options.dead_reckoning);
   motion.trajectory = dead_reckon(steps, motion.step_length_m, signal.heading_rad, walk.time_s,
                                   options.dead_reckoning);  // 4.6
-  motion.activity =
-      detect_activity(signal.filtered_orientation_deg, walk.time_s, signal.reliable, options.activity);
+  motion.activity = detect_activity(
+      motion.step_signal == StepSignal::kShift ? signal.filtered_shift_px : signal.filtered_orientation_deg,
+      walk.time_s, signal.reliable, options.activity);
   return motion;
 }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
-
 #include <dlib/image_keypoint.h>
+
 #include <opencv2/core.hpp>
+
 #include <vo/surf/features.hpp>
 
 namespace bench {

@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+
 #include <simulate/simulator.hpp>
 
 namespace bench {
@@ -40,7 +41,8 @@ inline std::vector<NamedFrame> assorted_frames() {
   }
   const auto folder = test_support::data_folder();
   if (!folder) return frames;
-  for (const char* const name : {"gopro_footpath/reference.mp4", "kitti_03/drive.mp4", "sim/corridor_a.mp4"}) {
+  for (const char* const name :
+       {"gopro_footpath/reference.mp4", "kitti_03/drive.mp4", "sim/corridor_a.mp4"}) {
     cv::VideoCapture video((*folder / name).string());
     cv::Mat bgr;
     video.set(cv::CAP_PROP_POS_FRAMES, video.get(cv::CAP_PROP_FRAME_COUNT) / 2);

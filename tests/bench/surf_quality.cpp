@@ -1,10 +1,10 @@
 // How well SURF finds and recognises points after a change of the image, beside dlib's: prints a table.
 //   surf_quality [points]
-// Both give their strongest points, the same number, of a frame and of the changed frame. A pair of points is one
-// place if the discs of 3 scales about them overlap to more than 60 % of their union (Mikolajczyk et al. 2005, an
-// overlap error below 40 %). Repeatability is the share of points in view of both frames that have such a partner;
-// matching score, the share of mutual nearest descriptors that are one place; orientation error, the median of
-// |orientation change - rotation| of those.
+// Both give their strongest points, the same number, of a frame and of the changed frame. A pair of points is
+// one place if the discs of 3 scales about them overlap to more than 60 % of their union (Mikolajczyk et al.
+// 2005, an overlap error below 40 %). Repeatability is the share of points in view of both frames that have
+// such a partner; matching score, the share of mutual nearest descriptors that are one place; orientation
+// error, the median of |orientation change - rotation| of those.
 #include "dlib_surf.hpp"
 #include "frames.hpp"
 
@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+
 #include <vo/gait/matching.hpp>
 #include <vo/surf/surf.hpp>
 
@@ -24,13 +25,20 @@ struct Change {
 };
 
 const std::vector<Change> kChanges{
-    {.name = "rotation 5 deg", .rotation_deg = 5},    {.name = "rotation 10 deg", .rotation_deg = 10},
-    {.name = "rotation 20 deg", .rotation_deg = 20},  {.name = "rotation 45 deg", .rotation_deg = 45},
-    {.name = "scale 0.6", .scale = 0.6},              {.name = "scale 0.8", .scale = 0.8},
-    {.name = "scale 1.25", .scale = 1.25},            {.name = "scale 1.6", .scale = 1.6},
-    {.name = "blur 1 px", .blur_px = 1},              {.name = "blur 2 px", .blur_px = 2},
-    {.name = "blur 3 px", .blur_px = 3},              {.name = "brightness x 0.5", .gain = 0.5},
-    {.name = "brightness x 0.7 + 40", .gain = 0.7, .offset = 40}, {.name = "brightness x 1.3", .gain = 1.3},
+    {.name = "rotation 5 deg", .rotation_deg = 5},
+    {.name = "rotation 10 deg", .rotation_deg = 10},
+    {.name = "rotation 20 deg", .rotation_deg = 20},
+    {.name = "rotation 45 deg", .rotation_deg = 45},
+    {.name = "scale 0.6", .scale = 0.6},
+    {.name = "scale 0.8", .scale = 0.8},
+    {.name = "scale 1.25", .scale = 1.25},
+    {.name = "scale 1.6", .scale = 1.6},
+    {.name = "blur 1 px", .blur_px = 1},
+    {.name = "blur 2 px", .blur_px = 2},
+    {.name = "blur 3 px", .blur_px = 3},
+    {.name = "brightness x 0.5", .gain = 0.5},
+    {.name = "brightness x 0.7 + 40", .gain = 0.7, .offset = 40},
+    {.name = "brightness x 1.3", .gain = 1.3},
 };
 
 /// From the frame to the changed frame.
@@ -48,7 +56,8 @@ cv::Mat apply(const Change& change, const cv::Mat& grey) {
     cv::GaussianBlur(image, image, {}, blur);
   }
   if (change.rotation_deg != 0 || change.scale != 1)
-    cv::warpAffine(image, image, map_of(change, grey.size()), grey.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT_101);
+    cv::warpAffine(image, image, map_of(change, grey.size()), grey.size(), cv::INTER_CUBIC,
+                   cv::BORDER_REFLECT_101);
   if (change.blur_px > 0) cv::GaussianBlur(image, image, {}, change.blur_px);
   image.convertTo(image, -1, change.gain, change.offset);
   return image;
@@ -83,7 +92,8 @@ struct Score {
   }
   [[nodiscard]] double median_error_deg() {
     if (orientation_errors_deg.empty()) return 0;
-    const auto middle = orientation_errors_deg.begin() + static_cast<std::ptrdiff_t>(orientation_errors_deg.size() / 2);
+    const auto middle =
+        orientation_errors_deg.begin() + static_cast<std::ptrdiff_t>(orientation_errors_deg.size() / 2);
     std::nth_element(orientation_errors_deg.begin(), middle, orientation_errors_deg.end());
     return *middle;
   }
@@ -94,7 +104,8 @@ Score compare(const vo::Features& before, const vo::Features& after, const Chang
   const auto moved = [&](const vo::Feature& point) { return map * cv::Vec3d(point.x_px, point.y_px, 1); };
   const auto one_place = [&](const vo::Feature& a, const vo::Feature& b) {
     const cv::Vec2d at = moved(a);
-    return overlap(3 * a.scale_px * change.scale, 3 * b.scale_px, std::hypot(at[0] - b.x_px, at[1] - b.y_px)) > 0.6;
+    return overlap(3 * a.scale_px * change.scale, 3 * b.scale_px,
+                   std::hypot(at[0] - b.x_px, at[1] - b.y_px)) > 0.6;
   };
   cv::Matx23d back;
   cv::invertAffineTransform(map, back);
@@ -128,14 +139,15 @@ int main(int argc, char** argv) {
   const auto frames = bench::assorted_frames();
   std::string names;
   for (const auto& frame : frames) names += (names.empty() ? "" : ", ") + frame.name;
-  fmt::print("Strongest {} points or as many as both find, of {} frames: {}.\n\n", wanted, frames.size(), names);
+  fmt::print("Strongest {} points or as many as both find, of {} frames: {}.\n\n", wanted, frames.size(),
+             names);
   fmt::print("| change | repeatability | dlib | matching score | dlib | orientation error, deg | dlib |\n");
   fmt::print("|---|---|---|---|---|---|---|\n");
   Score ours_of_all, dlibs_of_all;
   const auto print = [](const std::string& name, Score& ours, Score& dlibs) {
-    fmt::print("| {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {:.2f} |\n", name, ours.repeated / ours.points,
-               dlibs.repeated / dlibs.points, ours.matched / ours.points, dlibs.matched / dlibs.points,
-               ours.median_error_deg(), dlibs.median_error_deg());
+    fmt::print("| {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {:.2f} |\n", name,
+               ours.repeated / ours.points, dlibs.repeated / dlibs.points, ours.matched / ours.points,
+               dlibs.matched / dlibs.points, ours.median_error_deg(), dlibs.median_error_deg());
   };
   for (const Change& change : kChanges) {
     Score ours, dlibs;

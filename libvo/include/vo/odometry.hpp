@@ -77,20 +77,28 @@ VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options 
 
 /// Settings of `pedestrian_motion`.
 struct PedestrianMotionOptions {
-  LowpassOptions lowpass;
+  GaitSignalOptions signal;
   StepDetectionOptions steps;
   StepLengthOptions step_length;
   DeadReckoningOptions dead_reckoning;
   ActivityOptions activity;
 };
 
+/// What steps are read from.
+enum class StepSignal {
+  kOrientation,  ///< the camera rolls with each stride [PVO]
+  kShift,  ///< it swings from side to side: where nothing in the orientation is like gait, as with cameras
+           ///< that keep their horizon level; legs are then a guess
+};
+
 /// Steps, heading and trajectory of a walk (PVO 4).
 struct PedestrianMotion {
   GaitSignal signal;
-  StepDetection detection;
-  std::vector<double> step_length_m;   ///< of each step
-  std::vector<double> displacement_m;  ///< of each frame since the one before it; the first: 0
-  DeadReckoning trajectory;            ///< from (0, 0), heading 0
+  StepSignal step_signal = StepSignal::kOrientation;  ///< which of them the steps were read from
+  StepDetection detection;                            ///< in the signal's unit: degrees, or pixels of shift
+  std::vector<double> step_length_m;                  ///< of each step
+  std::vector<double> displacement_m;                 ///< of each frame since the one before it; the first: 0
+  DeadReckoning trajectory;                           ///< from (0, 0), heading 0
   std::vector<ActivitySecond> activity;
 };
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 namespace vo {
@@ -51,25 +53,30 @@ FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const Frame
 }
 
 GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const double> time_s,
-                       const LowpassOptions& options) {
+                       const GaitSignalOptions& options) {
   if (motion.size() != time_s.size()) throw std::invalid_argument("gait_signal: one time per frame expected");
   const double rate_hz = frame_rate_hz(time_s);
   GaitSignal signal;
-  std::vector<double> turns_rad;
+  std::vector<double> shifts_px, turns_rad;
   for (const FrameMotion& frame : motion) {
-    signal.reliable.push_back(frame.orientation_deg.has_value());
+    signal.reliable.push_back(frame.orientation_deg && frame.shift_px && frame.turn_rad);
     signal.orientation_deg.push_back(frame.orientation_deg.value_or(0));
+    shifts_px.push_back(frame.shift_px.value_or(0));
     turns_rad.push_back(frame.turn_rad.value_or(0));
   }
   signal.bridged =
       static_cast<std::size_t>(std::count(signal.reliable.begin() + 1, signal.reliable.end(), false));
   signal.orientation_deg = bridge_gaps(signal.orientation_deg, signal.reliable);
-  signal.filtered_orientation_deg = lowpass_zero_phase(signal.orientation_deg, rate_hz, options);
+  signal.filtered_orientation_deg = lowpass_zero_phase(signal.orientation_deg, rate_hz, options.lowpass);
+  signal.filtered_shift_px = lowpass_zero_phase(
+      without_drift(bridge_gaps(shifts_px, signal.reliable), rate_hz), rate_hz, options.lowpass);
+
   turns_rad = bridge_gaps(turns_rad, signal.reliable);
-  double heading_rad = 0;
-  for (std::size_t i = 0; i < turns_rad.size(); ++i) {
-    if (i > 0) heading_rad += turns_rad[i];
-    signal.heading_rad.push_back(heading_rad);
+  turns_rad.front() = 0;
+  std::partial_sum(turns_rad.begin(), turns_rad.end(), std::back_inserter(signal.heading_rad));
+  if (options.heading_cutoff_hz > 0) {
+    signal.heading_rad =
+        lowpass_zero_phase(signal.heading_rad, rate_hz, {.order = 2, .cutoff_hz = options.heading_cutoff_hz});
   }
   return signal;
 }

@@ -25,16 +25,18 @@ std::vector<Match> match_features(const Features& from, const Features& to, cons
   if (from.descriptor_size != to.descriptor_size)
     throw std::invalid_argument("match_features: descriptors of one size expected");
 
-  const NearestOfBoth nearest = options.search == MatchSearch::kExact ? nearest_exact(from, to, options)
-                                                                      : nearest_flann(from, to, options);
+  const NearestOfBoth nearest =
+      options.search == MatchSearch::kExact ? nearest_exact(from, to, options) : nearest_flann(from, to);
   const double ratio = options.max_ratio * options.max_ratio;
   const double reach = options.max_displacement_px * options.max_displacement_px;
+  std::vector<bool> taken(to.size(), false);
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Nearest& best = nearest.from[i];
     if (best.index == Nearest::kNone) continue;
     if (options.max_ratio < 1 && best.first > ratio * best.second) continue;
-    if (options.mutual && nearest.to[best.index].index != i) continue;
+    if (options.mutual && (taken[best.index] || best.first > nearest.to[best.index])) continue;
     if (reach > 0 && squared_displacement(from.points[i], to.points[best.index]) > reach) continue;
+    taken[best.index] = true;
     matches.push_back({i, best.index, std::sqrt(best.first)});
   }
   return matches;

@@ -26,19 +26,16 @@ struct Nearest {
       second = distance;
     }
   }
-  void merge(const Nearest& other) {
-    if (other.index == kNone) return;
-    offer(other.index, other.first);
-    if (other.second < second) second = other.second;
-  }
 };
 
-/// For each point of either image the nearest of the other. `to` is empty unless options.mutual.
+/// For each point of the first image its nearest of the second, and the other way round the squared distances
+/// alone, which is all that a mutual test needs.
 struct NearestOfBoth {
-  std::vector<Nearest> from, to;
+  std::vector<Nearest> from;
+  std::vector<float> to;
 };
 
 NearestOfBoth nearest_exact(const Features& from, const Features& to, const MatchOptions& options);
-NearestOfBoth nearest_flann(const Features& from, const Features& to, const MatchOptions& options);
+NearestOfBoth nearest_flann(const Features& from, const Features& to);
 
 }  // namespace vo

@@ -46,8 +46,7 @@ std::vector<Nearest> search(const Features& from, const Features& to) {
     flann::Matrix<float> distance_matrix(distances.data(), queries.size(), count);
     flann::SearchParams params(kChecks);
     params.cores = 1;
-    const auto found = index.knnSearch(query, index_matrix, distance_matrix, count, params);
-    static_cast<void>(found);
+    index.knnSearch(query, index_matrix, distance_matrix, count, params);
     for (std::size_t q = 0; q < queries.size(); ++q) {
       for (std::size_t k = 0; k < count; ++k)
         nearest[queries[q]].offer(references[indices[q * count + k]], distances[q * count + k]);
@@ -58,8 +57,10 @@ std::vector<Nearest> search(const Features& from, const Features& to) {
 
 }  // namespace
 
-NearestOfBoth nearest_flann(const Features& from, const Features& to, const MatchOptions& options) {
-  return {.from = search(from, to), .to = options.mutual ? search(to, from) : std::vector<Nearest>()};
+NearestOfBoth nearest_flann(const Features& from, const Features& to) {
+  NearestOfBoth nearest{.from = search(from, to)};
+  for (const Nearest& back : search(to, from)) nearest.to.push_back(back.first);
+  return nearest;
 }
 
 }  // namespace vo

@@ -67,14 +67,23 @@ struct DescriptorWeights {
   float values[kDescriptorCells][kDescriptorColumns];
 };
 
-/// Squared distances between rows of descriptors.
+/// Points and their descriptors, 8 at a time.
+struct PointBlock {
+  const float* values;  ///< queries: row by row; references: value k of reference j at [8 k + j]
+  const float* norms;   ///< squared lengths; infinite for what fills up the last block
+  const float* x_px;
+  const float* y_px;
+};
+
+/// Squared distances of 8 queries to 8 references, infinite between points further apart than `reach_px`.
 struct DistanceBlock {
-  const float* query;            ///< 4 rows of `size` values
-  const float* query_norms;      ///< their squared lengths
-  const float* packed;           ///< 8 references, value k of reference j at [k * 8 + j]
-  const float* reference_norms;  ///< 8 squared lengths
-  std::size_t size;
-  float* out[4];  ///< 8 squared distances of each query
+  PointBlock queries, references;
+  std::size_t size;  ///< of a descriptor
+  float squared_reach_px;
+  const float* limits;   ///< per query, the distance up to which it cares
+  float* minima;         ///< per reference, the least distance so far
+  float (*out)[kLanes];  ///< [query][reference]
+  unsigned* within;      ///< per query, bit j: reference j is within its limit
 };
 
 struct Kernels {

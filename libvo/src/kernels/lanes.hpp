@@ -14,6 +14,8 @@
 /// a sum. Included only by the sources of `kernels`.
 namespace vo::kernels {
 
+inline constexpr float kInfinity = __builtin_inff();
+
 struct ScalarLanes {
   static constexpr int kCount = 8;
 
@@ -67,6 +69,10 @@ struct ScalarLanes {
   /// `a` where `sign` has no sign bit, else 0.
   static Float where_positive(Float sign, Float a) {
     return each<Float>([&](int i) { return std::signbit(sign.v[i]) ? 0.0F : a.v[i]; });
+  }
+  /// `a` where `sign` has no sign bit, else infinite.
+  static Float infinite_unless(Float sign, Float a) {
+    return each<Float>([&](int i) { return std::signbit(sign.v[i]) ? kInfinity : a.v[i]; });
   }
   /// One bit per lane.
   static unsigned greater(Float a, Float b) {
@@ -141,6 +147,9 @@ struct Avx2Lanes {
   static Float abs(Float a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a); }
   static Float sqrt(Float a) { return _mm256_sqrt_ps(a); }
   static Float where_positive(Float sign, Float a) { return _mm256_blendv_ps(a, _mm256_setzero_ps(), sign); }
+  static Float infinite_unless(Float sign, Float a) {
+    return _mm256_blendv_ps(a, _mm256_set1_ps(kInfinity), sign);
+  }
   static unsigned greater(Float a, Float b) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_GT_OQ)));
   }

@@ -10,11 +10,12 @@
 namespace vo {
 namespace {
 
-constexpr int kHarmonics = kernels::kOrientationHarmonics;
-constexpr int kDirections = 64;           // at which the peak is looked for
-constexpr double kWindow_rad = 0.40;      // deviation of the window; that of Bay's 60 degrees is 0.30
-constexpr double kRadiusDeviation = 2.5;  // of the weights, in scales
-constexpr int kCoarser = 1;               // half octaves of smoothing more than the descriptor's
+constexpr std::size_t kHarmonics = kernels::kOrientationHarmonics;
+constexpr std::size_t kDirections = 64;  // at which the peak is looked for
+constexpr double kStep_rad = 2 * std::numbers::pi / kDirections;
+constexpr double kWindow_rad = 0.40;    // deviation of the window; that of Bay's 60 degrees is 0.30
+constexpr double kRadiusDeviation = 3;  // of the weights, in scales
+constexpr int kCoarser = 3;             // half octaves of smoothing more than the descriptor's
 
 kernels::OrientationWeights make_weights() {
   kernels::OrientationWeights weights{};
@@ -30,55 +31,56 @@ kernels::OrientationWeights make_weights() {
   return weights;
 }
 
-/// The window's Fourier coefficient of order m.
-double window(int m) {
-  return std::exp(-0.5 * (m * kWindow_rad) * (m * kWindow_rad));
-}
-
-/// harmonics[m - 1][d]: cosine and sine of m times direction d, times the window's coefficient.
-struct Directions {
+/// The window's Fourier coefficients, of order m at [m - 1], and its harmonics at every direction d: cosine
+/// and sine of m times d, times the coefficient.
+struct Window {
+  std::array<double, kHarmonics> coefficients;
   std::array<std::array<float, kDirections>, kHarmonics> cosine, sine;
 
-  Directions() {
-    for (int m = 1; m <= kHarmonics; ++m) {
-      for (int d = 0; d < kDirections; ++d) {
-        const double angle = m * 2 * std::numbers::pi * d / kDirections;
-        cosine[m - 1][d] = static_cast<float>(window(m) * std::cos(angle));
-        sine[m - 1][d] = static_cast<float>(window(m) * std::sin(angle));
+  Window() {
+    for (std::size_t m = 0; m < kHarmonics; ++m) {
+      const double order = static_cast<double>(m + 1);
+      coefficients[m] = std::exp(-0.5 * (order * kWindow_rad) * (order * kWindow_rad));
+      for (std::size_t d = 0; d < kDirections; ++d) {
+        const double angle = order * static_cast<double>(d) * kStep_rad;
+        cosine[m][d] = static_cast<float>(coefficients[m] * std::cos(angle));
+        sine[m][d] = static_cast<float>(coefficients[m] * std::sin(angle));
       }
     }
   }
 };
 
-/// The direction d of which the series is greatest.
-int greatest(const kernels::OrientationMoments& moments) {
-  static const Directions directions;
-  std::array<float, kDirections> density{};
-  for (int m = 0; m < kHarmonics; ++m) {
-    for (int d = 0; d < kDirections; ++d)
-      density[d] +=
-          moments.values[2 * m] * directions.cosine[m][d] + moments.values[2 * m + 1] * directions.sine[m][d];
+/// The direction of those at which the window was tabulated where the most lies in it.
+double fullest(const Window& window, const kernels::OrientationMoments& moments) {
+  std::array<float, kDirections> sums{};
+  for (std::size_t m = 0; m < kHarmonics; ++m) {
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      sums[d] += moments.values[2 * m] * window.cosine[m][d] + moments.values[2 * m + 1] * window.sine[m][d];
+    }
   }
-  return static_cast<int>(std::ranges::max_element(density) - density.begin());
+  return static_cast<double>(std::ranges::max_element(sums) - sums.begin()) * kStep_rad;
 }
 
 /// Newton's method on the derivative of the series, from a direction beside its peak.
-double climb(const kernels::OrientationMoments& moments, double angle) {
-  constexpr double kReach = 2 * std::numbers::pi / kDirections;
-  const double begin = angle - kReach, end = angle + kReach;
+double climb(const Window& window, const kernels::OrientationMoments& moments, double angle) {
+  const double begin = angle - kStep_rad, end = angle + kStep_rad;
   for (int iteration = 0; iteration < 4; ++iteration) {
     const double c = std::cos(angle), s = std::sin(angle);
     double cm = 1, sm = 0, slope = 0, curvature = 0;
-    for (int m = 1; m <= kHarmonics; ++m) {
+    for (std::size_t m = 0; m < kHarmonics; ++m) {
       const double next = cm * c - sm * s;
       sm = cm * s + sm * c;
       cm = next;
-      const double a = window(m) * moments.values[2 * m - 2], b = window(m) * moments.values[2 * m - 1];
-      slope += m * (b * cm - a * sm);
-      curvature -= m * m * (a * cm + b * sm);
+      const double a = window.coefficients[m] * moments.values[2 * m];
+      const double b = window.coefficients[m] * moments.values[2 * m + 1];
+      const double order = static_cast<double>(m + 1);
+      slope += order * (b * cm - a * sm);
+      curvature -= order * order * (a * cm + b * sm);
     }
     if (!(curvature < 0)) break;
-    angle = std::clamp(angle - slope / curvature, begin, end);
+    const double change = slope / curvature;
+    angle = std::clamp(angle - change, begin, end);
+    if (std::abs(change) < 1e-6) break;
   }
   return angle;
 }
@@ -92,16 +94,10 @@ float orientation(const SmoothPyramid& pyramid, const Feature& point) {
   kernels::kernels().orientation_moments(raster_of(level), grid_at(level, point, point.scale_px, 0), weights,
                                          moments);
   if (std::ranges::all_of(moments.values, [](float moment) { return moment == 0; })) return 0;
-  const double angle = climb(moments, greatest(moments) * 2 * std::numbers::pi / kDirections);
+  static const Window window;
+  const double angle = climb(window, moments, fullest(window, moments));
   const auto wrapped = static_cast<float>(std::remainder(angle, 2 * std::numbers::pi));
   return wrapped <= -std::numbers::pi_v<float> ? std::numbers::pi_v<float> : wrapped;
-}
-
-bool orientation_inside(const Feature& point, int width_px, int height_px) {
-  const float reach = (kernels::kOrientationRadius + 1) * point.scale_px;
-  return point.x_px >= reach && point.y_px >= reach &&
-         point.x_px <= static_cast<float>(width_px - 1) - reach &&
-         point.y_px <= static_cast<float>(height_px - 1) - reach;
 }
 
 }  // namespace vo

@@ -11,7 +11,7 @@ namespace vo {
 namespace {
 
 constexpr float kFirstScale = 1.6F;  // the least of level 0
-constexpr int kBandRows = 32;
+constexpr int kBandRows = 90;        // of one task; small levels are one task, which starts no threads
 
 SmoothLevel make_level(int width, int height, int step_px) {
   // One column and row more, read with weight 0 by samples on the rim.

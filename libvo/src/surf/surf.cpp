@@ -17,17 +17,11 @@ constexpr std::size_t kChunk = 32;  // points of one task
 
 Features detect_surf(const cv::Mat& grey, const SurfOptions& options) {
   Features features{.descriptor_size = options.extended ? 128U : 64U};
-  HessianOptions detector = options.detector;
-  detector.max_points = 0;
-  features.points = detect_blobs(integral_image(grey), detector);
-  std::erase_if(features.points,
-                [&](const Feature& point) { return !orientation_inside(point, grey.cols, grey.rows); });
-  if (options.detector.max_points != 0 && features.size() > options.detector.max_points)
-    features.points.resize(options.detector.max_points);
+  features.points = detect_blobs(integral_image(grey), options.detector);
   if (features.points.empty()) return features;
 
   const float max_scale_px = std::ranges::max(features.points, {}, &Feature::scale_px).scale_px;
-  const SmoothPyramid pyramid = smooth_pyramid(grey, 2 * max_scale_px);
+  const SmoothPyramid pyramid = smooth_pyramid(grey, 3 * max_scale_px);
   features.descriptors.resize(features.size() * features.descriptor_size);
   parallel_for((features.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t end = std::min((chunk + 1) * kChunk, features.size());

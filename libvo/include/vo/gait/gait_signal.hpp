@@ -36,19 +36,27 @@ struct FrameMotionOptions {
 /// in. O(points).
 FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const FrameMotionOptions& options = {});
 
-/// The signal that steps are read from, and the direction walked in, for each frame of a walk.
+/// The signals that steps are read from, and the direction walked in, for each frame of a walk.
 struct GaitSignal {
-  std::vector<double> orientation_deg;           ///< median orientation change, gaps bridged
+  std::vector<double> orientation_deg;           ///< orientation change, gaps bridged
   std::vector<double> filtered_orientation_deg;  ///< low-passed
-  std::vector<double> heading_rad;               ///< since the first frame, clockwise; the sum of the turns
+  std::vector<double> filtered_shift_px;         ///< x shift without turns and drift, low-passed
+  std::vector<double> heading_rad;               ///< of the walker, clockwise, since the first frame
   std::vector<bool> reliable;                    ///< false where too few points were tracked
   std::size_t bridged = 0;                       ///< frames that are not reliable, the first not counted
 };
 
+/// Settings of `gait_signal`.
+struct GaitSignalOptions {
+  LowpassOptions lowpass;
+  double heading_cutoff_hz = 0.5;  ///< of the heading, slower than any stride; 0 leaves the trunk's swing in
+};
+
 /// Joins the frames' motions (PVO 4.3, 4.5): gaps bridged by straight lines and marked, never taken as zero;
-/// the orientation low-passed without lag. Throws `std::invalid_argument` if there is not one time for each
-/// frame, for fewer than two frames, or a frame rate that is not above twice the filter's cut-off. O(n).
+/// low-passed without lag. The heading is the sum of the turns, freed of the trunk's swing with each stride,
+/// which PVO trusts to cancel out over two steps. Throws `std::invalid_argument` if there is not one time for
+/// each frame, for fewer than two frames, or a frame rate that is not above twice the filter's cut-off. O(n).
 GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const double> time_s,
-                       const LowpassOptions& options = {});
+                       const GaitSignalOptions& options = {});
 
 }  // namespace vo

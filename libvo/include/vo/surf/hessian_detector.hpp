@@ -11,11 +11,14 @@ namespace vo {
 
 /// Which interest points are found.
 struct HessianOptions {
-  float threshold = 1;          ///< least determinant of the Hessian, grey levels^2; > 0
+  float threshold =
+      1;  ///< least determinant of the Hessian, grey levels^2, > 0; night and blank walls need a low one
   std::size_t max_points = 600;  ///< the strongest are kept; 0: all
   int octaves = 4;               ///< doublings of scale, 1 to 8 (Bay: 3 to 4)
   int intervals = 4;             ///< filters per octave, 3 to 6 (Bay: 4)
   int initial_step_px = 1;       ///< sampling step of the first octave, 1, 2 or 4; its filters grow with it
+
+  float rim_scales = 7;  ///< least distance from the rim of the image, scales; 7 is what `orientation` reads
 
   /// True if every field is in its range; else says in `*error` which is not.
   [[nodiscard]] bool is_valid(std::string* error) const;
@@ -29,6 +32,9 @@ struct HessianOptions {
 /// that of the picture shrunk 2^o times by box averages. Its filters have sides 2^o L (18, 30, 42, 54 in the
 /// second; Bay's are 15, 27, 39, 51) and the grid is as wide as the paper's. So octaves are alike in all but
 /// scale, adjoin without overlap (Bay's count the scales between them twice), and are computed by one loop.
+///
+/// Strength is response * sqrt(scale), where the paper takes the response: of two blobs of equal contrast the
+/// larger outlives blur, as its average is over more pixels (libvo/README.md has the figures).
 ///
 /// Returns points of which position, scale, response and laplacian are set, the strongest first (then by row,
 /// column and scale), which lie in the image far enough from its rim for the filter above theirs. An image

@@ -15,10 +15,8 @@ namespace vo {
 /// - The window has soft edges and slides continuously: a Gaussian whose direction histogram is a Fourier
 ///   series of 8 terms, the peak of which is found to rounding error.
 ///
-/// Returns radians in (-pi, pi], from +x towards +y; 0 where there is no gradient. About 0.7 us.
+/// Reads the image up to 7 scales away, and repeats its rim outside. Returns radians in (-pi, pi], from +x
+/// towards +y; 0 where there is no gradient. About 0.7 us.
 float orientation(const SmoothPyramid& pyramid, const Feature& point);
-
-/// True if the neighbourhood that `orientation` looks at lies in an image of this size.
-bool orientation_inside(const Feature& point, int width_px, int height_px);
 
 }  // namespace vo

@@ -17,14 +17,14 @@ struct SmoothLevel {
   std::vector<std::uint16_t> values;
 };
 
-/// The image ever smoother, two levels per octave, to take gradients from: level 2o has a deviation of about
-/// 0.65 pixels and level 2o + 1 of 1.2, of 2^o image pixels each. Each is the one before filtered by a
-/// binomial, the odd ones shrunk by half.
+/// The image ever smoother, two levels per octave, to take gradients from: level 2o has a deviation of 0.58
+/// to 0.71 pixels and level 2o + 1 of 1.15 to 1.23, of 2^o image pixels each. Each is the one before filtered
+/// by a binomial, the even ones shrunk by half.
 struct SmoothPyramid {
   std::vector<SmoothLevel> levels;
 
-  /// The level for points of this scale, whose deviation is 0.31 to 0.44 of the scale, or `coarser` half
-  /// octaves smoother. Scales below or above all levels give the first or last.
+  /// The level for points of this scale, whose deviation is 0.25 to 0.55 of the scale, or the one `coarser`
+  /// half octaves on. Scales below or above all levels give the first or last.
   [[nodiscard]] const SmoothLevel& level(float scale_px, int coarser = 0) const;
 };
 

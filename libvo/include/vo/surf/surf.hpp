@@ -18,10 +18,8 @@ struct SurfOptions {
 /// Features (SURF)", 2008. The stages say where they leave the paper.
 ///
 /// `grey`: 8 bit, one channel, at most 2^24 pixels, else `std::invalid_argument`, as for invalid options. An
-/// empty or constant image, or one too small for the filters, has no points. Points whose orientation would
-/// be read beyond the rim of the image are left out; of those left the strongest `max_points`, strongest
-/// first. The same bytes for any number of threads. A 640 x 360 image with 800 points takes about 4 ms on one
-/// thread.
+/// empty or constant image, or one too small for the filters, has no points. Points are the strongest first.
+/// The same bytes for any number of threads. libvo/README.md has times and figures of quality.
 Features detect_surf(const cv::Mat& grey, const SurfOptions& options = {});
 
 }  // namespace vo
