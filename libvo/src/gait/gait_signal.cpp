@@ -30,10 +30,19 @@ double mean_angle_rad(std::span<const double> angles_rad) {
   return std::atan2(sine, cosine);
 }
 
+/// Where the walker goes, as the frames say that tell it.
+double travel_rad(std::span<const FrameMotion> motion) {
+  std::vector<double> told;
+  for (const FrameMotion& frame : motion) {
+    if (frame.turn && frame.turn->travel_rad) told.push_back(*frame.turn->travel_rad);
+  }
+  return told.empty() ? 0 : median(told);
+}
+
 }  // namespace
 
 FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const FrameMotionOptions& options) {
-  FrameMotion motion{.matches = tracks.points.size(), .orientation_deg = {}, .shift_px = {}, .turn_rad = {}};
+  FrameMotion motion{.matches = tracks.points.size(), .orientation_deg = {}, .shift_px = {}, .turn = {}};
   if (tracks.span == 0 || tracks.points.size() < std::max<std::size_t>(options.min_matches, 1)) return motion;
   std::vector<double> rotations_rad, shifts_px;
   for (const TrackedPoint& point : tracks.points) {
@@ -46,8 +55,10 @@ FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const Frame
   motion.orientation_deg =
       (by_median ? median(rotations_rad) : mean_angle_rad(rotations_rad)) * kDegrees / frames;
   motion.shift_px = (by_median ? median(shifts_px) : mean(shifts_px)) / frames;
-  if (const std::optional<double> turned = turn(tracks.points, camera, options.heading)) {
-    motion.turn_rad = *turned / frames;
+  motion.turn = turn(tracks.points, camera, options.heading);
+  if (motion.turn) {
+    motion.turn->turn_rad /= frames;
+    motion.turn->turn_per_travel /= frames;
   }
   return motion;
 }
@@ -57,12 +68,14 @@ GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const doub
   if (motion.size() != time_s.size()) throw std::invalid_argument("gait_signal: one time per frame expected");
   const double rate_hz = frame_rate_hz(time_s);
   GaitSignal signal;
+  signal.travel_rad = travel_rad(motion);
   std::vector<double> shifts_px, turns_rad;
   for (const FrameMotion& frame : motion) {
-    signal.reliable.push_back(frame.orientation_deg && frame.shift_px && frame.turn_rad);
+    signal.reliable.push_back(frame.orientation_deg && frame.shift_px && frame.turn);
     signal.orientation_deg.push_back(frame.orientation_deg.value_or(0));
     shifts_px.push_back(frame.shift_px.value_or(0));
-    turns_rad.push_back(frame.turn_rad.value_or(0));
+    const Turn turn = frame.turn.value_or(Turn{});
+    turns_rad.push_back(turn.turn_rad + turn.turn_per_travel * signal.travel_rad);
   }
   signal.bridged =
       static_cast<std::size_t>(std::count(signal.reliable.begin() + 1, signal.reliable.end(), false));

@@ -3,6 +3,7 @@
 #include "vo/base/median.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -57,28 +58,34 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(angle_rad, w / angle_rad).toRotationMatrix();
 }
 
-/// Gauss-Newton on the rotation R (three angles) and the direction of travel t (x and y at z = 1) of the
-/// essential matrix [t]x R. A camera that turns right moves points by a rotation about y to the left.
-double epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
-  using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+/// The essential matrix [t]x R of two views: three angles of R, and t's x and y at z = 1.
+struct Epipolar {
+  Eigen::Vector3d rotation;
+  Eigen::Vector3d travel;
+  Matrix5 information;  ///< of both, by the points alone
+};
+
+/// Gauss-Newton from a turn and travel along the optical axis. `travel_sd`: standard deviation of t about
+/// that, to the side. A camera that turns right moves points by a rotation about y to the left.
+Epipolar solve_epipolar(const Rays& rays, double start_turn_rad, double travel_sd, double noise) {
   constexpr int kMaxIterations = 10;
   constexpr double kConverged = 1e-7;
-  // Standard deviations of the priors: the rotation about its start, the direction of travel about the
-  // optical axis. Both far wider than what the points say, unless these say nothing.
-  constexpr double kRotation_rad = 0.2, kTravel = 0.3;
-  Vector5 prior_weight;
-  prior_weight.head<3>().setConstant(1 / (kRotation_rad * kRotation_rad));
-  prior_weight.tail<2>().setConstant(1 / (kTravel * kTravel));
+  // Far wider than what the points say, unless these say nothing.
+  constexpr double kRotationSd_rad = 0.2, kTiltSd = 0.3;
+  Vector5 prior;
+  prior << Eigen::Vector3d::Constant(1 / (kRotationSd_rad * kRotationSd_rad)), 1 / (travel_sd * travel_sd),
+      1 / (kTiltSd * kTiltSd);
 
   const Eigen::Vector3d start(0, -start_turn_rad, 0);
-  Eigen::Vector3d w = start;
-  Eigen::Vector3d t(0, 0, 1);
+  Epipolar solution{.rotation = start, .travel = {0, 0, 1}, .information = Matrix5::Zero()};
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Eigen::Matrix3d r = rotation(w);
-    Eigen::Matrix<double, 5, 5> normal = prior_weight.asDiagonal();
-    Vector5 gradient;
-    gradient << w - start, t.head<2>();
-    gradient.array() *= prior_weight.array();
+    const Eigen::Matrix3d r = rotation(solution.rotation);
+    const Eigen::Vector3d& t = solution.travel;
+    Vector5 gradient = Vector5::Zero();
+    solution.information.setZero();
     for (std::size_t i = 0; i < rays.from.size(); ++i) {
       const Eigen::Vector3d b(rays.to[i].x, rays.to[i].y, 1);
       const Eigen::Vector3d turned = r * Eigen::Vector3d(rays.from[i].x, rays.from[i].y, 1);
@@ -92,16 +99,46 @@ double epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
       Vector5 row;
       row << turned.cross(plane), turned.cross(b).head<2>();
       row *= scale;
-      normal.noalias() += weight * row * row.transpose();
+      solution.information.noalias() += weight * row * row.transpose();
       gradient += weight * error * row;
     }
-    const Vector5 step = normal.ldlt().solve(gradient);
+    Vector5 off_prior;
+    off_prior << solution.rotation - start, t.head<2>();
+    const Matrix5 normal = solution.information + Matrix5(prior.asDiagonal());
+    const Vector5 step = normal.ldlt().solve(gradient + prior.cwiseProduct(off_prior));
     const Eigen::AngleAxisd next(rotation(-step.head<3>()) * r);
-    w = next.angle() * next.axis();
-    t.head<2>() -= step.tail<2>();
+    solution.rotation = next.angle() * next.axis();
+    solution.travel.head<2>() -= step.tail<2>();
     if (step.norm() < kConverged) break;
   }
-  return -w.y();
+  return solution;
+}
+
+Turn epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
+  constexpr double kAhead = 1e-3, kAnywhere = 0.3;
+  constexpr double kSeen = 0.1;  // largest standard deviation of a direction of travel that is told
+  constexpr Eigen::Index kTurn = 1, kSide = 3;
+  const Epipolar ahead = solve_epipolar(rays, start_turn_rad, kAhead, noise);
+  Turn turn{.turn_rad = -ahead.rotation.y(), .turn_per_travel = 0, .travel_rad = {}};
+
+  // What the others make of a unit of travel to the side: their part of the information, solved for it.
+  Eigen::Matrix4d others;
+  Eigen::Vector4d coupling;
+  constexpr std::array<Eigen::Index, 4> kOthers{0, 1, 2, 4};
+  for (std::size_t i = 0; i < kOthers.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    coupling[row] = ahead.information(kOthers[i], kSide);
+    for (std::size_t j = 0; j < kOthers.size(); ++j)
+      others(row, static_cast<Eigen::Index>(j)) = ahead.information(kOthers[i], kOthers[j]);
+  }
+  others.diagonal().array() += 1;  // nothing, beside what a few points say
+  turn.turn_per_travel = others.ldlt().solve(coupling)[kTurn];
+
+  const Epipolar free = solve_epipolar(rays, start_turn_rad, kAnywhere, noise);
+  const Matrix5 information = free.information + Matrix5(Vector5::Ones().asDiagonal());
+  const double variance = information.inverse()(kSide, kSide);
+  if (variance < kSeen * kSeen) turn.travel_rad = std::atan(free.travel.x());
+  return turn;
 }
 
 }  // namespace
@@ -113,14 +150,14 @@ bool HeadingOptions::is_valid(std::string* error) const {
   return true;
 }
 
-std::optional<double> turn(std::span<const TrackedPoint> points, const Camera& camera,
-                           const HeadingOptions& options) {
+std::optional<Turn> turn(std::span<const TrackedPoint> points, const Camera& camera,
+                         const HeadingOptions& options) {
   if (std::string error; !options.is_valid(&error)) throw std::invalid_argument("turn: " + error);
   if (points.size() < static_cast<std::size_t>(options.min_points)) return std::nullopt;
-  if (options.method == HeadingMethod::kNaive) return naive_turn(points, camera);
+  if (options.method == HeadingMethod::kNaive) return Turn{naive_turn(points, camera), 0, {}};
   const Rays rays = rays_of(points, camera);
   const double regions = regions_turn(points, rays, camera, options.strips);
-  if (options.method == HeadingMethod::kRegions) return regions;
+  if (options.method == HeadingMethod::kRegions) return Turn{regions, 0, {}};
   return epipolar_turn(rays, regions, options.noise_px / camera.fx_px);
 }
 

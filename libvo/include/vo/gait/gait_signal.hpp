@@ -21,7 +21,7 @@ struct FrameMotion {
   std::optional<double>
       orientation_deg;             ///< change of the points' orientation; clockwise in the picture positive
   std::optional<double> shift_px;  ///< of the points, to the right positive
-  std::optional<double> turn_rad;  ///< of the camera, clockwise seen from above positive
+  std::optional<Turn> turn;        ///< of the camera
 };
 
 /// Settings of `frame_motion`.
@@ -42,6 +42,7 @@ struct GaitSignal {
   std::vector<double> filtered_orientation_deg;  ///< low-passed
   std::vector<double> filtered_shift_px;         ///< x shift without turns and drift, low-passed
   std::vector<double> heading_rad;               ///< of the walker, clockwise, since the first frame
+  double travel_rad = 0;                         ///< how far right of where the camera looks the walker goes
   std::vector<bool> reliable;                    ///< false where too few points were tracked
   std::size_t bridged = 0;                       ///< frames that are not reliable, the first not counted
 };
@@ -54,8 +55,10 @@ struct GaitSignalOptions {
 
 /// Joins the frames' motions (PVO 4.3, 4.5): gaps bridged by straight lines and marked, never taken as zero;
 /// low-passed without lag. The heading is the sum of the turns, freed of the trunk's swing with each stride,
-/// which PVO trusts to cancel out over two steps. Throws `std::invalid_argument` if there is not one time for
-/// each frame, for fewer than two frames, or a frame rate that is not above twice the filter's cut-off. O(n).
+/// which PVO trusts to cancel out over two steps. The camera need not look straight ahead, as it must for
+/// PVO: where the walker goes is the median of what the frames say. Throws `std::invalid_argument` if there
+/// is not one time for each frame, for fewer than two frames, or a frame rate that is not above twice the
+/// filter's cut-off. O(n).
 GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const double> time_s,
                        const GaitSignalOptions& options = {});
 
