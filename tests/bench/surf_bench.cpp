@@ -38,7 +38,8 @@ void surf(benchmark::State& state, bool upright, bool extended) {
   options.upright = upright;
   options.extended = extended;
   std::size_t points = 0;
-  for (auto _ : state) points = vo::detect_surf(frames()[0], options).size();
+  const cv::Mat& frame = frames()[0];  // drawn before the clock runs
+  for (auto _ : state) points = vo::detect_surf(frame, options).size();
   report_points(state, points);
 }
 BENCHMARK_CAPTURE(surf, plain, false, false)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -49,7 +50,8 @@ BENCHMARK_CAPTURE(surf, extended, false, true)->Arg(1)->Unit(benchmark::kMillise
 void surf_default(benchmark::State& state) {
   vo::set_thread_count(static_cast<int>(state.range(0)));
   std::size_t points = 0;
-  for (auto _ : state) points = vo::detect_surf(frames()[0]).size();
+  const cv::Mat& frame = frames()[0];
+  for (auto _ : state) points = vo::detect_surf(frame).size();
   report_points(state, points);
 }
 BENCHMARK(surf_default)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -116,7 +116,6 @@ Epipolar solve_epipolar(const Rays& rays, double start_turn_rad, double travel_s
 
 Turn epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
   constexpr double kAhead = 1e-3, kAnywhere = 0.3;
-  constexpr double kSeen = 0.1;  // largest standard deviation of a direction of travel that is told
   constexpr Eigen::Index kTurn = 1, kSide = 3;
   const Epipolar ahead = solve_epipolar(rays, start_turn_rad, kAhead, noise);
   Turn turn{.turn_rad = -ahead.rotation.y(), .turn_per_travel = 0, .travel_rad = {}};
@@ -134,10 +133,14 @@ Turn epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
   others.diagonal().array() += 1;  // nothing, beside what a few points say
   turn.turn_per_travel = others.ldlt().solve(coupling)[kTurn];
 
+  // Travel to the side moves points by so many of their standard deviations on the average (root mean
+  // square); where the walker stands, noise looks like a few.
+  constexpr double kParallax = 5;
   const Epipolar free = solve_epipolar(rays, start_turn_rad, kAnywhere, noise);
-  const Matrix5 information = free.information + Matrix5(Vector5::Ones().asDiagonal());
-  const double variance = information.inverse()(kSide, kSide);
-  if (variance < kSeen * kSeen) turn.travel_rad = std::atan(free.travel.x());
+  const auto points = static_cast<double>(rays.from.size());
+  if (free.information(kSide, kSide) > kParallax * kParallax * points) {
+    turn.travel_rad = std::atan(free.travel.x());
+  }
   return turn;
 }
 

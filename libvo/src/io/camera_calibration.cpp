@@ -50,7 +50,7 @@ Camera read_camera_calibration(const std::filesystem::path& path) {
       throw Error(name, fmt::format("has {} distortion_coefficients", distortion.total()),
                   "0, 4, 5, 8, 12 or 14");
     }
-    camera.distortion.assign(distortion.begin<double>(), distortion.end<double>());
+    if (!distortion.empty()) camera.distortion.assign(distortion.begin<double>(), distortion.end<double>());
     return camera;
   } catch (const cv::Exception&) {
     throw Error(name, "is no YAML, XML or JSON that OpenCV reads", kForm);
