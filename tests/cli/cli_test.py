@@ -134,6 +134,53 @@ class CliTest(unittest.TestCase):
         self.assertEqual(metrics["with_truth"], inside)
         self.assertLess(metrics["accepted"]["precision"], 0.6)
 
+    def test_turns_a_walk_into_steps_and_a_trajectory(self):
+        check("simulate", "--scene", "street", "--length-m", "15", "--seed", "3", "-o", self.folder / "walk")
+        truth = rows(self.folder / "walk" / "truth.csv")
+        out = self.folder / "out"
+        step_length = float(truth[-1]["distance_m"]) / float(truth[-1]["steps"])
+        check("odometry", self.folder / "walk" / "walk.mp4", "-o", out, "--step-length", step_length)
+
+        frames = rows(out / "frames.csv")
+        self.assertEqual(list(frames[0])[:9], ["frame", "time_s", "displacement", "unit", "source", "orientation_deg", "dx_px",
+                                               "matches", "heading_deg"])
+        self.assertEqual([row["frame"] for row in frames], [row["frame"] for row in truth])
+        steps = rows(out / "steps.csv")
+        self.assertEqual(list(steps[0])[:7], ["step", "frame", "time_s", "leg", "x_m", "y_m", "heading_deg"])
+        legs = [row["leg"] for row in steps]
+        self.assertTrue(all(a != b for a, b in zip(legs, legs[1:])), legs)
+        walked = sum(float(row["displacement"]) for row in frames)
+        self.assertAlmostEqual(walked, len(steps) * step_length, delta=0.01)
+        activities = {row["activity"] for row in rows(out / "activity.csv")}
+        self.assertIn("walking", activities)
+        self.assertNotIn("running", activities)
+        self.assertEqual(read_json(out / "summary.json")["steps"], len(steps))
+
+        # A step more or less at either end of so short a walk; 5 % of the way at its end.
+        check("evaluate-odometry", out, "--truth", self.folder / "walk" / "truth.csv")
+        metrics = read_json(out / "odometry_metrics.json")
+        self.assertLessEqual(abs(metrics["steps_estimated"] - metrics["steps_true"]), 2)
+        self.assertLess(metrics["euclidean_error_m"]["10"], 0.75)
+
+        # The same walk measures the step length, and is the same for one thread.
+        check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "calibrated", "--walk-length-m", "15", "--threads", "1")
+        self.assertAlmostEqual(read_json(self.folder / "calibrated" / "summary.json")["step_length_m"], 15 / len(steps), places=6)
+        self.assertEqual([row["time_s"] for row in rows(self.folder / "calibrated" / "steps.csv")], [row["time_s"] for row in steps])
+
+    def test_refuses_odometry_it_cannot_do(self):
+        walk = ("odometry", self.walks.query, "-o", self.folder / "out")
+        self.refused(*walk, "--image-rate-hz", "7", says="7 frames/s, too few to see steps; expected more than 8", leaves=("out",))
+        self.refused(*walk, "--camera", self.folder / "none.yml", says="none.yml: does not exist")
+        calibration = self.folder / "camera.yml"
+        calibration.write_text("%YAML:1.0\n---\nimage_width: 1000\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n   rows: 3\n"
+                               "   cols: 3\n   dt: d\n   data: [ 600., 0., 500., 0., 600., 240., 0., 0., 1. ]\n")
+        self.refused(*walk, "--camera", calibration, says="is of 1000x480 pixels; expected", leaves=("out",))
+        for degrees in ("9", "171"):
+            done = run(*walk, "--fov-deg", degrees)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("--fov-deg", done.stderr)
+        self.assertFalse((self.folder / "out" / "steps.csv").exists())
+
     def test_evaluates_odometry_by_the_paper_s_protocol(self):
         # The truth goes 120 m north at 1 m/s; the estimate is a tenth too long, and 5 m to the side.
         truth = self.folder / "truth.csv"
@@ -421,7 +468,7 @@ class CliTest(unittest.TestCase):
     # ---- help ----
 
     def test_help_shows_units_defaults_and_examples(self):
-        for command in ("build", "localise", "evaluate", "evaluate-odometry", "inspect", "config"):
+        for command in ("build", "localise", "evaluate", "odometry", "evaluate-odometry", "inspect", "config"):
             text = check(command, "--help")
             self.assertIn("Example", text)
             self.assertIn(f"retrace {command}", text)
