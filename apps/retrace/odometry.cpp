@@ -37,7 +37,8 @@ struct OdometryOptions {
 std::string frames_csv(const vo::Walk& walk, const vo::PedestrianMotion& motion) {
   std::string csv =
       "frame,time_s,displacement,unit,source,orientation_deg,dx_px,matches,heading_deg,"
-      "filtered_orientation_deg,threshold_deg,reliable,x_m,y_m\n";
+      "step_signal,step_threshold,reliable,x_m,y_m\n";
+  const std::vector<double>& signal = vo::step_signal(motion);
   for (std::size_t i = 0; i < walk.frames(); ++i) {
     const vo::FrameMotion& tracked = walk.tracked[i];
     const vo::Pose2& pose = motion.trajectory.at_frame[i].pose;
@@ -47,8 +48,8 @@ std::string frames_csv(const vo::Walk& walk, const vo::PedestrianMotion& motion)
     csv += fmt::format("{},{:.6f},{:.6f},m,steps,{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f}\n", i,
                        walk.time_s[i], motion.displacement_m[i], measured(tracked.orientation_deg),
                        measured(tracked.shift_px), tracked.matches, motion.signal.heading_rad[i] * kDegrees,
-                       motion.signal.filtered_orientation_deg[i], motion.detection.delta_dyn_deg[i],
-                       motion.signal.reliable[i] ? 1 : 0, pose.x_m, pose.y_m);
+                       signal[i], motion.detection.delta_dyn_deg[i], motion.signal.reliable[i] ? 1 : 0,
+                       pose.x_m, pose.y_m);
   }
   return csv;
 }
@@ -89,18 +90,20 @@ std::string activity_csv(const vo::PedestrianMotion& motion) {
 }
 
 ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, double step_length_m) {
+  const bool by_shift = motion.step_signal == vo::StepSignal::kShift;
   double distance_m = 0;
   for (const double moved_m : motion.displacement_m) distance_m += moved_m;
   ordered_json json{{"walk", walk.source},
                     {"frames", walk.frames()},
                     {"duration_s", walk.time_s.back()},
                     {"steps", motion.detection.steps.size()},
-                    {"step_signal", motion.step_signal == vo::StepSignal::kShift ? "x shift" : "orientation"},
+                    {"step_signal", by_shift ? "x shift" : "orientation"},
+                    {"step_signal_unit", by_shift ? "px a frame" : "deg a frame"},
                     {"steps_bridged", motion.detection.bridged},
                     {"frames_bridged", motion.signal.bridged},
                     {"step_length_m", step_length_m},
                     {"distance_m", distance_m},
-                    {"delta_min_deg", nullptr},
+                    {"delta_min", nullptr},
                     {"warnings", walk.warnings},
                     {"version", place::kVersion}};
   for (const vo::Activity activity :
@@ -108,7 +111,7 @@ ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, d
     json["activity_s"][std::string(name_of(activity))] =
         std::ranges::count(motion.activity, activity, &vo::ActivitySecond::activity);
   }
-  if (motion.detection.delta_min_deg) json["delta_min_deg"] = *motion.detection.delta_min_deg;
+  if (motion.detection.delta_min_deg) json["delta_min"] = *motion.detection.delta_min_deg;
   return json;
 }
 

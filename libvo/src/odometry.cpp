@@ -111,6 +111,11 @@ VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options)
   return motion;
 }
 
+const std::vector<double>& step_signal(const PedestrianMotion& motion) {
+  return motion.step_signal == StepSignal::kShift ? motion.signal.filtered_shift_px
+                                                  : motion.signal.filtered_orientation_deg;
+}
+
 PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptions& options) {
   if (walk.tracked.size() != walk.frames()) {
     throw std::invalid_argument("pedestrian_motion: a walk read with track_features expected");
@@ -139,9 +144,7 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
       step_displacement_m(steps, motion.step_length_m, walk.time_s, options.dead_reckoning);
   motion.trajectory = dead_reckon(steps, motion.step_length_m, signal.heading_rad, walk.time_s,
                                   options.dead_reckoning);  // 4.6
-  motion.activity = detect_activity(
-      motion.step_signal == StepSignal::kShift ? signal.filtered_shift_px : signal.filtered_orientation_deg,
-      walk.time_s, signal.reliable, options.activity);
+  motion.activity = detect_activity(step_signal(motion), walk.time_s, signal.reliable, options.activity);
   return motion;
 }
 

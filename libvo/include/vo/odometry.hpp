@@ -102,6 +102,9 @@ struct PedestrianMotion {
   std::vector<ActivitySecond> activity;
 };
 
+/// The low-passed signal that the steps were read from, one value for each frame.
+const std::vector<double>& step_signal(const PedestrianMotion& motion);
+
 /// Gait signal -> steps -> step lengths -> displacement and trajectory, of a walk read with `track_features`.
 /// Throws `std::invalid_argument` for one without, `vo::Error` naming a walk whose frame rate is too low to
 /// see steps.

@@ -2,6 +2,8 @@
 #include "support/temporary_folder.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -186,6 +188,65 @@ TEST(VisualMotion, IsTheSameForAnyThreadCount) {
   EXPECT_EQ(one.displacement, four.displacement);
   EXPECT_EQ(one.standing, four.standing);
   EXPECT_EQ(one.model.error, four.model.error);
+}
+
+/// Ten seconds at 25 frames/s of a walk at 2 steps a second, straight on: the stride swings in one of the
+/// signals.
+vo::Walk tracked_walk(double orientation_deg, double shift_px, double rate_hz = 25) {
+  vo::Walk walk;
+  walk.source = "walk.mp4";
+  for (int i = 0; i < 250; ++i) {
+    const double time_s = i / rate_hz;
+    const double swing = std::sin(2 * std::numbers::pi * time_s);  // a stride of two steps takes a second
+    walk.time_s.push_back(time_s);
+    vo::FrameMotion motion;
+    if (i > 0) {
+      motion.matches = 200;
+      motion.orientation_deg = orientation_deg * swing;
+      motion.shift_px = shift_px * swing;
+      motion.turn = vo::Turn{};
+    }
+    walk.tracked.push_back(motion);
+  }
+  return walk;
+}
+
+TEST(PedestrianMotion, CountsStepsAndWalksThem) {
+  vo::PedestrianMotionOptions options;
+  options.step_length.length_m = 0.8;
+  const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0.5, 0), options);
+  EXPECT_EQ(motion.step_signal, vo::StepSignal::kOrientation);
+  EXPECT_EQ(motion.detection.steps.size(), 20U);  // peaks at 0.25 s, 0.75 s, ...
+  double walked_m = 0;
+  for (const double moved_m : motion.displacement_m) walked_m += moved_m;
+  EXPECT_NEAR(walked_m, 20 * 0.8, 1e-9);
+  // Heading 0 is +y.
+  EXPECT_NEAR(motion.trajectory.at_frame.back().pose.x_m, 0, 1e-9);
+  EXPECT_NEAR(motion.trajectory.at_frame.back().pose.y_m, 20 * 0.8, 1e-9);
+  ASSERT_EQ(motion.activity.size(), 10U);
+  EXPECT_EQ(motion.activity[5].activity, vo::Activity::kWalking);
+}
+
+TEST(PedestrianMotion, ReadsStepsFromTheShiftWhereTheHorizonIsSteady) {
+  const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0, 3));
+  EXPECT_EQ(motion.step_signal, vo::StepSignal::kShift);
+  EXPECT_EQ(vo::step_signal(motion), motion.signal.filtered_shift_px);
+  EXPECT_NEAR(static_cast<double>(motion.detection.steps.size()), 20, 1);  // taking drift out bends the ends
+}
+
+TEST(PedestrianMotion, StandingHasNoSteps) {
+  const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0, 0));
+  EXPECT_EQ(motion.step_signal, vo::StepSignal::kOrientation);
+  EXPECT_TRUE(motion.detection.steps.empty());
+  EXPECT_THAT(motion.displacement_m, testing::Each(0));
+  EXPECT_EQ(motion.trajectory.at_frame.size(), 250U);
+}
+
+TEST(PedestrianMotion, RefusesWalksItCannotReadStepsFrom) {
+  vo::Walk untracked = tracked_walk(1, 1);
+  untracked.tracked.clear();
+  EXPECT_THROW(vo::pedestrian_motion(untracked), std::invalid_argument);
+  EXPECT_THROW(vo::pedestrian_motion(tracked_walk(1, 1, 8)), vo::Error);  // 8 frames/s, filtered at 4 Hz
 }
 
 }  // namespace
