@@ -132,8 +132,13 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
     return detect_steps(values, walk.time_s, signal.reliable, options.steps);  // 4.4
   };
   motion.detection = detect(signal.filtered_orientation_deg);
-  if (motion.detection.steps.empty() && !options.steps.delta_min_deg) {
-    if (StepDetection by_shift = detect(signal.filtered_shift_px); !by_shift.steps.empty()) {
+  if (!options.steps.delta_min_deg) {
+    StepDetection by_shift = detect(signal.filtered_shift_px);
+    if (!motion.detection.steps.empty()) {
+      std::vector<std::size_t> matches;
+      for (const FrameMotion& frame : walk.tracked) matches.push_back(frame.matches);
+      motion.detection = fill_steps(motion.detection, by_shift, matches, walk.time_s, options.fusion);
+    } else if (!by_shift.steps.empty()) {
       motion.step_signal = StepSignal::kShift;
       motion.detection = std::move(by_shift);
     }

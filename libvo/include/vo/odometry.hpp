@@ -6,6 +6,7 @@
 #include "vo/gait/feature_tracker.hpp"
 #include "vo/gait/gait_signal.hpp"
 #include "vo/gait/step_detection.hpp"
+#include "vo/gait/step_fusion.hpp"
 #include "vo/gait/step_length.hpp"
 #include "vo/image/image_stack.hpp"
 #include "vo/image/patch_normalisation.hpp"
@@ -79,6 +80,7 @@ VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options 
 struct PedestrianMotionOptions {
   GaitSignalOptions signal;
   StepDetectionOptions steps;
+  StepFusionOptions fusion;
   StepLengthOptions step_length;
   DeadReckoningOptions dead_reckoning;
   ActivityOptions activity;
