@@ -1,5 +1,7 @@
 #include "vo/gait/dead_reckoning.hpp"
 
+#include "vo/base/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -17,15 +19,14 @@ std::vector<double> begin_of_steps_s(std::span<const Step> steps, double pause_s
   std::vector<double> usual_s;
   std::ranges::copy_if(durations_s, std::back_inserter(usual_s), [&](double s) { return s <= pause_s; });
   if (usual_s.empty()) usual_s = {0.5};
-  const auto median = usual_s.begin() + static_cast<std::ptrdiff_t>(usual_s.size() / 2);
-  std::ranges::nth_element(usual_s, median);
+  const double usual_step_s = median(usual_s);
 
   std::vector<double> begin_s;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i > 0 && is_step(i - 1)) {
       begin_s.push_back(steps[i - 1].time_s);
     } else {
-      begin_s.push_back(steps[i].time_s - (is_step(i) ? durations_s[i] : *median));
+      begin_s.push_back(steps[i].time_s - (is_step(i) ? durations_s[i] : usual_step_s));
     }
   }
   return begin_s;
