@@ -6,9 +6,11 @@ import base64
 import os
 import pathlib
 import shutil
+import struct
 import sys
 import tempfile
 import unittest
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from support.retrace_cli import check  # noqa: E402
@@ -58,6 +60,15 @@ def browser():
     driver.execute_cdp_cmd("Network.emulateNetworkConditions",
                            {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
     return driver
+
+
+def chequers(width, height, side=10):
+    """A PNG of black and white squares."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    lines = b"".join(b"\0" + bytes(255 * ((x // side + y // side) % 2) for x in range(width)) for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
 
 
 class Walks:
@@ -208,6 +219,35 @@ class ReportsTest(unittest.TestCase):
             self.assertEqual({item.get_attribute("class") for item in items}, {state})
         pictures = self.script("return [...document.querySelectorAll('.strip img')].map(i => i.decode().then(() => i.naturalWidth))")
         self.assertTrue(pictures)
+
+    def test_odometry(self):
+        walk = self.folder / "odometry"
+        check("odometry", self.walks.day, "-o", walk)
+        self.open(walk / "report.html", charts=5)
+        chart = self.all("figure.chart")[1]
+        self.zooms(chart, chart.find_element(By.TAG_NAME, "canvas"))
+        self.reads_points_by_keys(chart)
+
+        check("evaluate-odometry", walk, "--truth", self.folder / "day/truth.csv")
+        self.open(walk / "report.html", charts=7)
+        self.assertIn("True steps", self.script("return document.querySelector('dl.headline').textContent"))
+
+    def test_odometry_over_a_map(self):
+        """A way of two points, drawn on a map of chequers, under the trajectory."""
+        walk = self.folder / "mapped"
+        walk.mkdir()
+        (walk / "trajectory.tum").write_text("".join(f"{i} 0 {i} 0 0 0 0 1\n" for i in range(30)))
+        (walk / "steps.csv").write_text("step,frame,time_s,leg\n1,1,1,left\n")
+        (walk / "way.csv").write_text("x_px,y_px\n50,90\n50,32\n")
+        image = walk / "map.png"
+        image.write_bytes(chequers(100, 100))
+        evaluate = ["evaluate-odometry", walk, "--truth", walk / "way.csv", "--map-scale-m-per-px", 0.5]
+        check(*evaluate)
+        self.open(walk / "report.html", charts=3)
+        plain = self.script(INKED, self.all("canvas")[0])
+        check(*evaluate, "--map-image", image)
+        self.open(walk / "report.html", charts=3)
+        self.assertGreater(self.script(INKED, self.all("canvas")[0]), plain + 0.05)
 
     def test_hovering_the_curve_tells_the_threshold(self):
         run = self.walks.evaluated(self.walks.localised("hovered"))

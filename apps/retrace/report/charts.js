@@ -8,18 +8,21 @@ function themeColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 }
 
-/** Slanted lines: a shade that is told from others without its colour. */
-function hatching(context, colour) {
+/** Lines across, in one of a few ways: a shade that is told from others without its colour. */
+function hatching(context, colour, way) {
   const tile = document.createElement('canvas');
   tile.width = tile.height = 8;
   const pen = tile.getContext('2d');
   pen.strokeStyle = colour;
   pen.globalAlpha = 0.45;
   pen.lineWidth = 1.5;
+  const strokes = [[[-2, 2, 2, -2], [0, 8, 8, 0], [6, 10, 10, 6]], [[-2, 6, 2, 10], [0, 0, 8, 8], [6, -2, 10, 2]],
+    [[1, 2, 3, 2], [5, 6, 7, 6]], [[0, 0, 8, 8], [8, 0, 0, 8]]];
   pen.beginPath();
-  pen.moveTo(-2, 2); pen.lineTo(2, -2);
-  pen.moveTo(0, 8); pen.lineTo(8, 0);
-  pen.moveTo(6, 10); pen.lineTo(10, 6);
+  for (const [x0, y0, x1, y1] of strokes[way % strokes.length]) {
+    pen.moveTo(x0, y0);
+    pen.lineTo(x1, y1);
+  }
   pen.stroke();
   return context.createPattern(tile, 'repeat');
 }
@@ -41,8 +44,8 @@ const underlay = {
       ctx.drawImage(picture, left, top, x.getPixelForValue(at.right) - left, y.getPixelForValue(at.bottom) - top);
       ctx.globalAlpha = 1;
     }
-    for (const band of spec.bands || []) {
-      ctx.fillStyle = hatching(ctx, themeColour(band.colour));
+    for (const [i, band] of spec.bands.entries()) {
+      ctx.fillStyle = hatching(ctx, themeColour(band.colour), i);
       for (const [from, to] of band.spans) {
         const left = x.getPixelForValue(from), right = x.getPixelForValue(to);
         ctx.fillRect(left, area.top, Math.max(1, right - left), area.height);
@@ -92,7 +95,7 @@ function dataset(series) {
     pointHitRadius: 6,
     pointBorderColor: colour,
     pointBackgroundColor: series.hollow ? 'transparent' : colour,
-    clip: 8,
+    clip: series.mark ? 8 : 1,
     spanGaps: false,
     order: series.order || 0
   };
@@ -122,9 +125,9 @@ function legendGlyph(series) {
 }
 
 /** An entry of the legend for each kind of shading; it has no points. */
-function bandDataset(band, context) {
+function bandDataset(band, i, context) {
   return {label: band.name, data: [], showLine: false, pointStyle: 'rect', pointRadius: 7,
-    borderColor: themeColour(band.colour), backgroundColor: hatching(context, themeColour(band.colour)), band: true};
+    borderColor: themeColour(band.colour), backgroundColor: hatching(context, themeColour(band.colour), i)};
 }
 
 function axis(title, range) {
@@ -148,7 +151,7 @@ function tooltipLine(spec, item) {
 function configuration(spec, context) {
   return {
     type: 'scatter',
-    data: {datasets: [...spec.series.map(dataset), ...(spec.bands || []).map(band => bandDataset(band, context))]},
+    data: {datasets: [...spec.series.map(dataset), ...spec.bands.map((band, i) => bandDataset(band, i, context))]},
     plugins: [underlay, endLabels],
     options: {
       animation: false,
