@@ -2,6 +2,7 @@
 
 #include "report/chart.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -27,6 +28,9 @@ struct HeatTable {
   std::vector<std::vector<double>> values;  ///< by row, then column; NaN: none
 };
 
+/// The least and the largest value of tables; (0, 0) without any.
+std::array<double, 2> value_range(const std::vector<HeatTable>& tables);
+
 /// A report: one HTML file with everything inside, readable offline, in light and dark, and on paper.
 class Page {
  public:
@@ -39,7 +43,8 @@ class Page {
   /// Name and value, one pair a row.
   void facts(const std::vector<std::pair<std::string, std::string>>& rows);
   void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
-  void heat_table(const HeatTable& table);
+  /// Side by side, all of one scale.
+  void heat_tables(const std::vector<HeatTable>& tables);
   /// A JPEG or PNG picture. `description` is read out to who cannot see it.
   void picture(const std::vector<std::uint8_t>& image, std::string_view description,
                std::string_view caption);
@@ -53,6 +58,7 @@ class Page {
   [[nodiscard]] std::string html() const;
 
  private:
+  void heat_table(const HeatTable& table, std::array<double, 2> range);
   void figure(std::string_view kind, std::string_view content, const nlohmann::ordered_json& spec,
               std::string_view caption);
 

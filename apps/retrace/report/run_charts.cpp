@@ -1,5 +1,7 @@
 #include "run_charts.hpp"
 
+#include "report/pr_chart.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -141,48 +143,12 @@ Series pose_series(const vo::Trajectory& trajectory, std::string name, std::stri
 
 }  // namespace
 
-std::optional<Chart> precision_recall_chart(const RunTruth& truth) {
-  Chart chart{.title = "precision against recall for every threshold",
-              .x_title = "recall",
-              .y_title = "precision",
-              .x_range = std::array{0.0, 1.0},
-              .y_range = std::array{0.0, 1.0},
-              .size = "tall"};
-  Series curve{.name = "every threshold", .colour = "blue", .mark = "circle"};
-  for (const place::OperatingPoint& p : truth.evaluation.curve) {
-    curve.x.push_back(p.recall);
-    curve.y.push_back(p.precision);
-    curve.notes.push_back(fmt::format("threshold {:.4g}, F1 {:.3f}", p.threshold, p.f1));
-  }
-  const auto point = [](std::string name, const place::OperatingPoint& p, std::string colour,
-                        std::string mark) {
-    return Series{.name = std::move(name),
-                  .x = {p.recall},
-                  .y = {p.precision},
-                  .colour = std::move(colour),
-                  .line = false,
-                  .mark = std::move(mark),
-                  .size_px = 9,
-                  .notes = {fmt::format("threshold {:.4g}, F1 {:.3f}", p.threshold, p.f1)}};
-  };
-  chart.series = {point("highest F1", truth.evaluation.best, "orange", "star"),
-                  point("as accepted", truth.accepted, "green", "diamond"), curve};
-  for (const double f1 : {0.2, 0.4, 0.6, 0.8, 0.9}) {  // precision = f1 recall / (2 recall - f1)
-    Series line{.name = fmt::format("F1 {}", f1),
-                .colour = "grey",
-                .dash = {3, 4},
-                .width_px = 1,
-                .label_at_end = true};
-    constexpr int kPoints = 40;
-    const double least = f1 / (2 - f1);  // the recall where precision is 1
-    for (int i = 0; i <= kPoints; ++i) {
-      const double recall =
-          std::lerp(least, 1.0, std::pow(static_cast<double>(i) / kPoints, 2));  // closer where it is steep
-      line.x.push_back(recall);
-      line.y.push_back(f1 * recall / (2 * recall - f1));
-    }
-    chart.series.push_back(std::move(line));
-  }
+Chart precision_recall_chart(const RunTruth& truth) {
+  Chart chart = precision_recall_plane();
+  chart.series.insert(chart.series.begin(),
+                      {operating_point("highest F1", truth.evaluation.best, "orange", "star"),
+                       operating_point("as accepted", truth.accepted, "green", "diamond"),
+                       precision_recall_curve("every threshold", truth.evaluation)});
   return chart;
 }
 

@@ -18,8 +18,9 @@ struct RunView {
   const RunTruth* truth;               ///< null before the run is evaluated
 };
 
+Chart precision_recall_chart(const RunTruth& truth);
+
 // Each gives none where the run has not what it would show.
-std::optional<Chart> precision_recall_chart(const RunTruth& truth);
 std::optional<Chart> error_chart(const RunView& run);
 std::optional<Chart> score_chart(const RunView& run);
 /// Displacement a second of both walks, over time (SSS Fig. 6).
