@@ -259,6 +259,8 @@ void resolve(const CLI::App& app, Settings& settings) {
   }
   follow_motion(settings);
   if (!settings.camera.empty()) settings.walk.tracker.camera = vo::read_camera_calibration(settings.camera);
+  settings.walk.monocular.fov_deg = settings.walk.tracker.fov_deg;
+  settings.walk.monocular.camera = settings.walk.tracker.camera;
 }
 
 }  // namespace retrace

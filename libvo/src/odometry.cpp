@@ -59,6 +59,12 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTr
   std::ranges::move(tracker.push(images), std::back_inserter(walk.tracked));
 }
 
+/// Visual odometry takes one frame after the other.
+void follow_camera(const std::vector<Frame>& batch, std::optional<MonocularVo>& odometry) {
+  if (!odometry) return;
+  for (const Frame& frame : batch) odometry->push(frame.image, frame.time_s);
+}
+
 }  // namespace
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
@@ -68,6 +74,8 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   Walk walk;
   walk.source = source;
   FeatureTracker tracker(options.tracker);
+  std::optional<MonocularVo> odometry;
+  if (options.visual_odometry) odometry.emplace(options.monocular);
   walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
 
   // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
@@ -77,7 +85,10 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   while (!batch.empty()) {
     std::vector<Frame> next;
     parallel_invoke([&] { next = read_batch(*frames, batch_size); },
-                    [&] { keep(batch, options, tracker, walk); });
+                    [&] {
+                      parallel_invoke([&] { follow_camera(batch, odometry); },
+                                      [&] { keep(batch, options, tracker, walk); });
+                    });
     batch = std::move(next);
     if (progress && !progress({.stage = stage,
                                .done = static_cast<std::int64_t>(walk.frames()),
@@ -88,6 +99,7 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   if (walk.frames() < 2) {
     throw Error(source, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }
+  if (odometry) walk.visual_track = odometry->finish();
   walk.warnings = frames->warnings();
   return walk;
 }

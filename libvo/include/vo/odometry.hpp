@@ -13,10 +13,13 @@
 #include "vo/image/thumbnail.hpp"
 #include "vo/io/frame_source.hpp"
 #include "vo/motion/alignment_error.hpp"
+#include "vo/motion/displacement_track.hpp"
+#include "vo/motion/monocular_vo.hpp"
 #include "vo/motion/motion_model.hpp"
 #include "vo/motion/standing.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,10 +34,12 @@ struct WalkOptions {
   int preview_width_px = 160;   ///< width of the small JPEG kept of every frame; 0 keeps none
   bool track_features = false;  ///< SURF points are followed, for `pedestrian_motion`
   FeatureTrackerOptions tracker;
+  bool visual_odometry = false;  ///< the camera's way is followed by monocular visual odometry
+  MonocularVoOptions monocular;
 };
 
 /// What one pass over a recording kept: about 2 kB a frame, 3 kB more with previews, 100 bytes with tracked
-/// points.
+/// points, 200 with visual odometry.
 struct Walk {
   std::string source;  ///< as given: a path, or camera:N
   int frame_width_px = 0;
@@ -42,7 +47,8 @@ struct Walk {
   std::vector<double> time_s;  ///< of each frame, since the first, strictly increasing
   ImageStack thumbnails;       ///< grey, one for each frame
   std::vector<std::vector<std::uint8_t>>
-      previews;                       ///< JPEG, one for each frame; empty if none were asked for
+      previews;                                   ///< JPEG, one for each frame; empty if none were asked for
+  std::optional<DisplacementTrack> visual_track;  ///< by visual odometry, if it was asked for
   std::vector<FrameMotion> tracked;   ///< by the points followed, one for each frame; empty if they were not
   std::vector<std::string> warnings;  ///< what a user should know of the recording
 

@@ -24,7 +24,7 @@ struct MonocularVoOptions {
   CornerGridOptions corners;
   KltOptions klt;
   double noise_px = 0.5;            ///< standard deviation of a followed point's position
-  double min_parallax_deg = 0.7;    ///< between two rays to a landmark before it is placed
+  double min_parallax_deg = 0.4;    ///< between two rays to a landmark before it is placed
   double start_parallax_deg = 1.0;  ///< the median of the points, before a scene is begun
   std::size_t window = 8;           ///< keyframes adjusted together
   double keyframe_travel = 0.08;    ///< travel since the last keyframe, as a share of the median depth
