@@ -263,6 +263,8 @@ void resolve(const CLI::App& app, Settings& settings) {
   }
   follow_motion(settings);
   if (!settings.camera.empty()) settings.walk.tracker.camera = vo::read_camera_calibration(settings.camera);
+  settings.walk.vo.fov_deg = settings.walk.tracker.fov_deg;
+  settings.walk.vo.camera = settings.walk.tracker.camera;
 }
 
 }  // namespace retrace

@@ -41,8 +41,14 @@ std::vector<Frame> read_batch(FrameSource& frames, std::size_t count) {
   return batch;
 }
 
+/// What follows a walk from frame to frame.
+struct Trackers {
+  FeatureTracker features;
+  MonocularVo visual_odometry;
+};
+
 /// What is kept of a batch of frames, worked out in parallel.
-void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTracker& tracker, Walk& walk) {
+void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers& trackers, Walk& walk) {
   const std::size_t begin = walk.frames();
   walk.thumbnails.pixels.resize((begin + batch.size()) * walk.thumbnails.image_size());
   if (options.preview_width_px > 0) walk.previews.resize(begin + batch.size());
@@ -54,10 +60,17 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTr
     if (options.preview_width_px > 0)
       walk.previews[begin + i] = preview_of(batch[i].image, options.preview_width_px);
   });
-  if (!options.track_features) return;
   std::vector<cv::Mat> images;
   for (const Frame& frame : batch) images.push_back(frame.image);
-  std::ranges::move(tracker.push(images), std::back_inserter(walk.tracked));
+  parallel_invoke(
+      [&] {
+        if (!options.visual_odometry) return;
+        for (const Frame& frame : batch) trackers.visual_odometry.push(frame.image, frame.time_s);
+      },
+      [&] {
+        if (!options.track_features) return;
+        std::ranges::move(trackers.features.push(images), std::back_inserter(walk.tracked));
+      });
 }
 
 }  // namespace
@@ -68,7 +81,7 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   const std::string stage = fmt::format("reading {}", source);
   Walk walk;
   walk.source = source;
-  FeatureTracker tracker(options.tracker);
+  Trackers trackers{FeatureTracker(options.tracker), MonocularVo(options.vo)};
   walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
 
   // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
@@ -78,7 +91,7 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   while (!batch.empty()) {
     std::vector<Frame> next;
     parallel_invoke([&] { next = read_batch(*frames, batch_size); },
-                    [&] { keep(batch, options, tracker, walk); });
+                    [&] { keep(batch, options, trackers, walk); });
     batch = std::move(next);
     if (progress && !progress({.stage = stage,
                                .done = static_cast<std::int64_t>(walk.frames()),
@@ -89,6 +102,7 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   if (walk.frames() < 2) {
     throw Error(source, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }
+  if (options.visual_odometry) walk.track = trackers.visual_odometry.finish();
   walk.warnings = frames->warnings();
   return walk;
 }
