@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-using place::MotionSource;
+using vo::MotionSource;
 
 constexpr const char* kReference = "reference";
 
@@ -188,7 +188,11 @@ class Sweep {
   void read_walks() {
     vo::WalkOptions walk = options_.settings.walk;
     walk.preview_width_px = 0;
-    for (const Cell& cell : missing_) walk.track_features |= settings(cell).walk.track_features;
+    for (const Cell& cell : missing_) {  // what any of them needs
+      const vo::WalkOptions needed = settings(cell).walk;
+      walk.track_features |= needed.track_features;
+      walk.visual_odometry |= needed.visual_odometry;
+    }
     ProgressBar bar;
     walks_.reference = vo::read_walk(options_.reference, walk, bar.callback());
     walks_.query = vo::read_walk(options_.query, walk, bar.callback());
@@ -369,7 +373,7 @@ Command add_sweep(CLI::App& root) {
       ->required();
   add_truth_options(*app, options->truth);
   add_all_options(*app, options->settings);
-  add_list(*app, "--motion", options->motions, "sad, steps, none: what walks are resampled by");
+  add_list(*app, "--motion", options->motions, "sad, steps, hybrid, vo, none: what walks are resampled by");
   add_list(*app, "--sequence-length", options->lengths, "keyframes on a line [SSS 4.2]");
   add_list(*app, "--search-range-rad", options->ranges, "radians either side of pi/4 [SSS Fig. 8]");
   app->add_option("--vary", options->vary,

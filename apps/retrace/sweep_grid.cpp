@@ -105,8 +105,10 @@ Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const 
     }
   }
   place::Sampling& sampling = settings.sampling.sampling;
-  if (sampling.motion != place::MotionSource::kNone) sampling.every = 1;
-  if (sampling.motion != place::MotionSource::kSteps) sampling.spacing_m.reset();
+  if (sampling.motion == vo::MotionSource::kFile)
+    throw vo::Error("motion=file", "cannot be swept", "a motion that both walks show themselves");
+  if (sampling.motion != vo::MotionSource::kNone) sampling.every = 1;
+  if (sampling.motion != vo::MotionSource::kSteps) sampling.spacing_m.reset();
   resolve(app, settings);
   return settings;
 }

@@ -1,6 +1,7 @@
 #include "vo/odometry.hpp"
 
 #include "vo/base/error.hpp"
+#include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
 
 #include <algorithm>
@@ -40,8 +41,14 @@ std::vector<Frame> read_batch(FrameSource& frames, std::size_t count) {
   return batch;
 }
 
+/// What follows a walk from frame to frame.
+struct Trackers {
+  FeatureTracker features;
+  MonocularVo visual_odometry;
+};
+
 /// What is kept of a batch of frames, worked out in parallel.
-void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTracker& tracker, Walk& walk) {
+void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers& trackers, Walk& walk) {
   const std::size_t begin = walk.frames();
   walk.thumbnails.pixels.resize((begin + batch.size()) * walk.thumbnails.image_size());
   if (options.preview_width_px > 0) walk.previews.resize(begin + batch.size());
@@ -53,44 +60,70 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTr
     if (options.preview_width_px > 0)
       walk.previews[begin + i] = preview_of(batch[i].image, options.preview_width_px);
   });
-  if (!options.track_features) return;
   std::vector<cv::Mat> images;
   for (const Frame& frame : batch) images.push_back(frame.image);
-  std::ranges::move(tracker.push(images), std::back_inserter(walk.tracked));
+  parallel_invoke(
+      [&] {
+        if (!options.visual_odometry) return;
+        for (const Frame& frame : batch) trackers.visual_odometry.push(frame.image, frame.time_s);
+      },
+      [&] {
+        if (!options.track_features) return;
+        std::ranges::move(trackers.features.push(images), std::back_inserter(walk.tracked));
+      });
 }
 
 }  // namespace
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
+  return read_walk(*open_frame_source(source, options.frames), source, options, progress);
+}
+
+Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options,
+               const ProgressCallback& progress) {
   if (options.preview_width_px < 0) throw std::invalid_argument("read_walk: preview_width_px must be >= 0");
-  const std::unique_ptr<FrameSource> frames = open_frame_source(source, options.frames);
-  const std::string stage = fmt::format("reading {}", source);
+  const std::string stage = fmt::format("reading {}", name);
   Walk walk;
-  walk.source = source;
-  FeatureTracker tracker(options.tracker);
+  walk.source = name;
+  Trackers trackers{FeatureTracker(options.tracker), MonocularVo(options.vo)};
   walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
 
   // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
   // work, little enough for 4K video.
   const std::size_t batch_size = 4 * static_cast<std::size_t>(thread_count());
-  std::vector<Frame> batch = read_batch(*frames, batch_size);
+  std::vector<Frame> batch = read_batch(frames, batch_size);
   while (!batch.empty()) {
     std::vector<Frame> next;
-    parallel_invoke([&] { next = read_batch(*frames, batch_size); },
-                    [&] { keep(batch, options, tracker, walk); });
+    parallel_invoke([&] { next = read_batch(frames, batch_size); },
+                    [&] { keep(batch, options, trackers, walk); });
     batch = std::move(next);
     if (progress && !progress({.stage = stage,
                                .done = static_cast<std::int64_t>(walk.frames()),
-                               .total = frames->expected_frames()})) {
+                               .total = frames.expected_frames()})) {
       break;
     }
   }
   if (walk.frames() < 2) {
-    throw Error(source, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
+    throw Error(name, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }
-  walk.warnings = frames->warnings();
+  if (options.visual_odometry) walk.track = trackers.visual_odometry.finish();
+  walk.warnings = frames.warnings();
   return walk;
 }
+
+namespace {
+
+/// False for frames of next to no contrast, and those that are compared with one.
+std::vector<bool> with_contrast(const Walk& walk, const VisualMotionOptions& options) {
+  const std::vector<double> contrast = patch_contrast(walk.thumbnails, options.patch.patch_px);
+  const double least = options.min_contrast * median(contrast);
+  std::vector<bool> seen(contrast.size());
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    seen[i] = contrast[i] >= least && (i == 0 || contrast[i - 1] >= least);
+  return seen;
+}
+
+}  // namespace
 
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options) {
   const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);  // SSS Eq. 2
@@ -98,15 +131,18 @@ VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options)
   if (standing_still(unlike)) {
     throw Error(walk.source, "shows no motion to learn from", "a walk along which the scene changes");
   }
-  const AlignmentErrors errors = alignment_errors(normalised, options.alignment);                 // Eq. 1
-  const std::vector<bool> excluded = high_error_windows(errors, walk.time_s, options.alignment);  // Fig. 10
-  const std::vector<double> mean_error = mean_error_by_separation(errors, excluded);              // Fig. 2
   VisualMotion motion;
-  motion.model = learn_motion_model(mean_error);                                        // Fig. 3
-  motion.displacement = estimate_motion(errors, excluded, walk.time_s, options.model);  // Eq. 3
+  motion.errors = alignment_errors(normalised, options.alignment);  // Eq. 1
+  const std::vector<bool> excluded =
+      high_error_windows(motion.errors, walk.time_s, options.alignment);                       // Fig. 10
+  const std::vector<double> mean_error = mean_error_by_separation(motion.errors, excluded);    // Fig. 2
+  motion.model = learn_motion_model(mean_error);                                               // Fig. 3
+  motion.displacement = estimate_motion(motion.errors, excluded, walk.time_s, options.model);  // Eq. 3
   motion.standing = standing_steps(normalised, walk.time_s, unlike, options.standing);
+  motion.usable = with_contrast(walk, options);
   for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
     if (motion.standing[i]) motion.displacement[i] = 0;
+    if (excluded[i]) motion.usable[i] = false;
   }
   return motion;
 }

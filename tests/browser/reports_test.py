@@ -249,6 +249,24 @@ class ReportsTest(unittest.TestCase):
         self.open(walk / "report.html", charts=3)
         self.assertGreater(self.script(INKED, self.all("canvas")[0]), plain + 0.05)
 
+    def test_sweep(self):
+        check("sweep", self.walks.rain, "--reference", self.walks.day, *self.walks.truth, "--tolerance-m", 2, "-o",
+              self.folder / "sweep", "--sequence-length", "5,10", "--search-range-rad", "0,0.2,0.4", "--vary",
+              "enhance=local,standardise")
+        # Two motion sources, each against range and against length; and the further setting.
+        self.open(self.folder / "sweep/report.html", charts=5)
+        self.assertEqual(len(self.all("table.heat")), 2)
+        self.assertGreaterEqual(len(self.all("td.best")), 2)
+        shades = {cell.value_of_css_property("background-color") for cell in self.all("table.heat td")}
+        self.assertGreater(len(shades), 2)
+
+    def test_compare(self):
+        runs = [self.walks.evaluated(self.walks.localised(name, *options))
+                for name, options in (("short", ["--sequence-length", 3]), ("long", ["--sequence-length", 20]))]
+        check("compare", *runs, "-o", self.folder / "comparison", "--segment-s", 2)
+        self.open(self.folder / "comparison/report.html", charts=2)
+        self.assertEqual(len(self.all("dl.headline > div")), 2)
+
     def test_hovering_the_curve_tells_the_threshold(self):
         run = self.walks.evaluated(self.walks.localised("hovered"))
         self.driver.get((run / "report.html").as_uri())

@@ -24,6 +24,16 @@ ordered_json rounded(const std::vector<double>& values) {
   return json;
 }
 
+Series styled(Series series, std::size_t index) {
+  static const std::vector<std::string> kColours{"blue", "orange", "green", "purple", "ochre", "grey"};
+  static const std::vector<std::string> kMarks{"circle", "triangle", "square", "diamond", "cross", "star"};
+  static const std::vector<std::vector<int>> kDashes{{}, {8, 3}, {2, 3}, {10, 3, 2, 3}};
+  series.colour = kColours[index % kColours.size()];
+  series.mark = kMarks[index % kMarks.size()];
+  series.dash = kDashes[index % kDashes.size()];
+  return series;
+}
+
 namespace {
 
 ordered_json to_json(const Series& series) {

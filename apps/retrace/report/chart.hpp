@@ -30,6 +30,10 @@ struct Series {
   std::vector<std::string> notes;  ///< told of each point beside its values; empty: nothing
 };
 
+/// Gives a series the colour, mark and dashes of its place among others of the same kind, told apart without
+/// colour too.
+Series styled(Series series, std::size_t index);
+
 /// Stretches of x that are shaded.
 struct Band {
   std::string name;

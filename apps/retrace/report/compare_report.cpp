@@ -9,18 +9,11 @@
 namespace retrace {
 namespace {
 
-const std::vector<std::string> kColours{"blue", "orange", "green", "purple", "ochre", "grey"};
-const std::vector<std::string> kMarks{"circle", "triangle", "square", "diamond", "cross", "star"};
-const std::vector<std::vector<int>> kDashes{{}, {8, 3}, {2, 3}, {10, 3, 2, 3}};
-
 Chart curves(const Comparison& comparison) {
   Chart chart = precision_recall_plane();
   std::vector<Series> all;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    Series curve = precision_recall_curve(comparison.runs[i].name, comparison.runs[i].evaluation);
-    curve.colour = kColours[i % kColours.size()];
-    curve.mark = kMarks[i % kMarks.size()];
-    curve.dash = kDashes[i % kDashes.size()];
+    Series curve = styled(precision_recall_curve(comparison.runs[i].name, comparison.runs[i].evaluation), i);
     curve.size_px = 3;
     all.push_back(std::move(curve));
   }
@@ -41,14 +34,13 @@ Chart intervals(const Comparison& comparison) {
     const double f1 = run.evaluation.best.f1;
     const place::Interval interval = run.bootstrap.max_f1.value_or(place::Interval{f1, f1});
     const double line = count - static_cast<double>(i);
-    chart.series.push_back({.name = run.name,
-                            .x = {interval.low, f1, interval.high},
-                            .y = {line, line, line},
-                            .colour = kColours[i % kColours.size()],
-                            .mark = kMarks[i % kMarks.size()],
-                            .width_px = 3,
-                            .size_px = 5,
-                            .notes = {"lower end", "of the whole run", "upper end"}});
+    chart.series.push_back(styled({.name = run.name,
+                                   .x = {interval.low, f1, interval.high},
+                                   .y = {line, line, line},
+                                   .width_px = 3,
+                                   .size_px = 5,
+                                   .notes = {"lower end", "of the whole run", "upper end"}},
+                                  i));
   }
   return chart;
 }

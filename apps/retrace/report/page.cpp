@@ -197,6 +197,12 @@ void Page::chart(const Chart& chart, std::string_view caption) {
          to_json(chart), caption);
 }
 
+void Page::chart(std::string_view heading_text, const std::optional<Chart>& drawn, std::string_view caption) {
+  if (!drawn) return;
+  if (!heading_text.empty()) heading(heading_text);
+  chart(*drawn, caption);
+}
+
 void Page::matrix(const nlohmann::ordered_json& spec, std::string_view caption) {
   figure("matrix",
          "<canvas role=\"img\" tabindex=\"0\" aria-label=\"cost matrix with the matches over it; plus, minus "

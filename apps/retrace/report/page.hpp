@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,6 +50,8 @@ class Page {
   void picture(const std::vector<std::uint8_t>& image, std::string_view description,
                std::string_view caption);
   void chart(const Chart& chart, std::string_view caption);
+  /// The same under a heading, both left out where there is no chart; an empty heading is none.
+  void chart(std::string_view heading, const std::optional<Chart>& chart, std::string_view caption);
   /// A cost matrix to zoom into: what matrix.js reads.
   void matrix(const nlohmann::ordered_json& spec, std::string_view caption);
   /// Pairs of frames to look through: what strip.js reads.

@@ -12,9 +12,6 @@ namespace retrace {
 namespace {
 
 constexpr std::size_t kMotion = 0, kLength = 1, kRange = 2, kFurther = 3;
-const std::vector<std::string> kColours{"blue", "orange", "green", "purple", "ochre", "grey"};
-const std::vector<std::string> kMarks{"circle", "triangle", "square", "diamond", "cross", "star"};
-const std::vector<std::vector<int>> kDashes{{}, {8, 3}, {2, 3}, {10, 3, 2, 3}};
 
 double max_f1(const SweepResults& results, const Cell& cell) {
   const auto found = results.find(cell);
@@ -36,11 +33,7 @@ double position(const Axis& axis, std::size_t i) {
 /// Max-F1 along one axis from a cell, the other axes as in it.
 Series along(const std::vector<Axis>& axes, const SweepResults& results, Cell cell, std::size_t axis,
              std::string name, std::size_t style) {
-  Series series{.name = std::move(name),
-                .colour = kColours[style % kColours.size()],
-                .mark = kMarks[style % kMarks.size()],
-                .dash = kDashes[style % kDashes.size()],
-                .size_px = 4.5};
+  Series series = styled({.name = std::move(name), .size_px = 4.5}, style);
   for (std::size_t i = 0; i < axes[axis].values.size(); ++i) {
     cell[axis] = axes[axis].values[i];
     series.x.push_back(position(axes[axis], i));

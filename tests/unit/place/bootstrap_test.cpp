@@ -73,8 +73,8 @@ TEST(Bootstrap, IntervalsAreThoseOfAllPossibleResamples) {
   }
   std::ranges::sort(recalls);
   const RunBootstrap result = bootstrap_one(run, {.resamples = 20000, .confidence = 0.9});
-  // Right counts are binomial-like on 0..12; 13 of 256 draws lie below the 5 % percentile. It is the count 2
-  // with 5.9 % at or below and 2.0 % below it, far from what 20000 draws (sd 0.17 %) could mistake.
+  // 2.0 % of the draws have fewer than 2 right and 5.9 % no more than 2, so the 5 % percentile is 2, further
+  // from either than 20000 resamples (sd 0.17 %) could mistake; the other end is its mirror image.
   EXPECT_EQ(result.recall_at_1->low, recalls[12]);
   EXPECT_EQ(result.recall_at_1->high, recalls[243]);
 }
