@@ -1,5 +1,6 @@
 #include "command.hpp"
 #include "progress_bar.hpp"
+#include "report/odometry_report.hpp"
 #include "run_directory.hpp"
 #include "settings.hpp"
 
@@ -120,9 +121,10 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   vo::set_thread_count(settings.threads);
   resolve(app, settings);
   const fs::path folder = options.output;
-  prepare_run_directory(
-      folder, {"frames.csv", "steps.csv", "activity.csv", "trajectory.tum", "summary.json", "config.toml"},
-      options.common.force);
+  prepare_run_directory(folder,
+                        {"frames.csv", "steps.csv", "activity.csv", "trajectory.tum", "summary.json",
+                         "report.html", "config.toml"},
+                        options.common.force);
 
   settings.walk.preview_width_px = 0;
   settings.walk.track_features = true;
@@ -152,17 +154,22 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
       vo::to_tum(motion.trajectory.at_frame, "pose of each frame, metres and radians since the first"));
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
+  vo::write_file(folder / "report.html", odometry_report(folder));
   if (options.common.json) {
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}: {} steps, {:.1f} m in {:.1f} s with steps of {:.3f} m; see {}\n", options.output,
-             motion.detection.steps.size(), json["distance_m"].get<double>(), walk.time_s.back(),
-             pedestrian.step_length.length_m, (folder / "steps.csv").string());
-  if (motion.detection.bridged + motion.signal.bridged > 0) {
-    fmt::print("bridged: {} of the steps, {} of {} frames with too few points\n", motion.detection.bridged,
-               motion.signal.bridged, walk.frames());
-  }
+  const auto row = [](std::string_view name, const std::string& value, const std::string& note) {
+    fmt::print("  {:<10}{:>10}   {}\n", name, value, note);
+  };
+  fmt::print("{}\n", walk.source);
+  row("steps", std::to_string(motion.detection.steps.size()),
+      fmt::format("{} of them bridged", motion.detection.bridged));
+  row("distance", fmt::format("{:.1f} m", json["distance_m"].get<double>()),
+      fmt::format("steps of {:.3f} m", pedestrian.step_length.length_m));
+  row("duration", fmt::format("{:.1f} s", walk.time_s.back()),
+      fmt::format("{} frames, {} with too few points", walk.frames(), motion.signal.bridged));
+  fmt::print("see {}\n", (folder / "report.html").string());
 }
 
 }  // namespace
