@@ -69,7 +69,9 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
                  ? "Metres from the first frame, which looks along y. The square is the start."
                  : "Metres. The odometry is laid on the truth's first five metres; the square is the start.");
   put_errors(page, walk);
-  page.chart("Steps", gait_chart(walk), "A peak beyond both thresholds is a step with the left leg (triangle), a valley one with the right "
+  page.chart(
+      "Steps", gait_chart(walk),
+      "A peak beyond both thresholds is a step with the left leg (triangle), a valley one with the right "
       "(diamond); outlines are steps filled in. Zoom in to see them [PVO Fig. 3].");
   page.chart("Activity", activity_chart(walk), "Each shading is what was done in that second.");
   page.chart("Heading", heading_chart(walk), "");

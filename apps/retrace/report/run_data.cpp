@@ -87,7 +87,7 @@ ordered_json pairs_json(const place::Route& route, const vo::Walk& walk,
 ordered_json run_data(const place::Route& route, const vo::Walk& walk, const place::SampledWalk& sampled,
                       const std::vector<place::Match>& matches,
                       std::span<const place::SearchMatrices> matrices) {
-  ordered_json json{{"motion", name_of(route.sampling.motion)},
+  ordered_json json{{"motion", vo::name_of(route.sampling.motion)},
                     {"unit", sampled.unit},
                     {"query", query_json(walk, sampled)},
                     {"traverses", ordered_json::array()},

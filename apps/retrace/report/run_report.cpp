@@ -107,7 +107,9 @@ std::string run_report(const fs::path& folder, const ordered_json& data, const R
   if (truth != nullptr) put_scores(page, *truth);
   put_counts(page, summary);
   if (truth != nullptr) {
-    page.chart("Precision and recall", precision_recall_chart(*truth), "Every point is a threshold of the score. The star is the threshold of the highest F1, the diamond "
+    page.chart(
+        "Precision and recall", precision_recall_chart(*truth),
+        "Every point is a threshold of the score. The star is the threshold of the highest F1, the diamond "
         "the run's own acceptance; dashed lines join points of equal F1.");
     put_operating_points(page, *truth);
     page.chart("Error along the walk", error_chart(view),
@@ -125,9 +127,13 @@ std::string run_report(const fs::path& folder, const ordered_json& data, const R
   }
   page.chart("Speed, before and after normalisation", speed_chart(view),
              "Before: travelled displacement in a second, over a second about each moment [SSS Fig. 6].");
-  page.chart("", keyframe_chart(view), "After: displacement between neighbouring keyframes, in units of the sampling: constant, but where the "
+  page.chart(
+      "", keyframe_chart(view),
+      "After: displacement between neighbouring keyframes, in units of the sampling: constant, but where the "
       "walker covers more than a unit between two frames [SSS Fig. 7].");
-  page.chart("", spacing_chart(view), "Metres truly walked between neighbouring keyframes. The closer the two walks, the straighter the path "
+  page.chart(
+      "", spacing_chart(view),
+      "Metres truly walked between neighbouring keyframes. The closer the two walks, the straighter the path "
       "through the matrix, and the nearer to 45 degrees.");
   if (const ordered_json strip = strip_spec(view); !strip["pairs"].empty()) {
     page.heading("What was taken for the same place");
