@@ -93,7 +93,8 @@ std::string pr_csv(const place::Evaluation& evaluation) {
 std::string errors_csv(const std::vector<MatchRow>& rows, const std::vector<place::ScoredQuery>& queries) {
   std::string csv = "query_frame,query_time_s,score,accepted,has_truth,error\n";
   const auto cell = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.9g}", *value) : std::string();
+    return value ? fmt::format("{}", *value)
+                 : std::string();  // every digit: some errors lie on the tolerance
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     csv += fmt::format("{},{:.6f},{},{},{},{}\n", rows[i].query_frame, rows[i].query_time_s,

@@ -265,7 +265,9 @@ std::string description(const SweepOptions& options, const std::vector<Axis>& ax
       options.truth.tolerance_m.value_or(options.truth.tolerance_frames.value_or(0)),
       options.truth.tolerance_m ? "m" : "reference frames");
   for (const Axis& axis : axes) text += " " + axis.setting;
-  return text + "\n" + to_toml(options.settings);
+  Settings settings = options.settings;
+  settings.threads = 0;  // makes no difference
+  return text + "\n" + to_toml(settings);
 }
 
 /// What was done before, if the folder holds the same sweep. Throws if it holds another.

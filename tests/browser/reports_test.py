@@ -22,6 +22,7 @@ try:
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
     print("skipped: python3-selenium is not installed")
     sys.exit(SKIPPED)
@@ -159,7 +160,9 @@ class ReportsTest(unittest.TestCase):
         background = self.script("return getComputedStyle(document.body).backgroundColor")
         self.assertEqual(background, "rgb(22, 23, 27)")
         for canvas, before in zip(canvases, light):
-            self.assertNotEqual(self.script(DIGEST, canvas), before, canvas.get_attribute("aria-label"))
+            # The page is told of the change in its own time.
+            WebDriverWait(self.driver, 10).until(lambda _, c=canvas, b=before: self.script(DIGEST, c) != b,
+                                                 canvas.get_attribute("aria-label"))
         self.screenshot("dark")
         self.colours("light")
 
