@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "report/odometry_report.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -31,6 +32,7 @@ struct EvaluateOdometryOptions {
   std::string folder;  ///< written by `retrace odometry`
   std::string truth;   ///< truth.csv, or a way on a map
   std::optional<double> map_scale_m_per_px;
+  std::string map_image;
   std::optional<std::size_t> true_steps;
   vo::OdometryEvaluationOptions evaluation;
 };
@@ -114,6 +116,13 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   }
   const ordered_json metrics = metrics_json(steps, truth.steps, evaluation, options.evaluation);
   vo::write_file(folder / "odometry_metrics.json", metrics.dump(2) + "\n");
+  const OdometryTruth for_report{.poses = truth.walk.poses,
+                                 .way = truth.way,
+                                 .map_image = options.map_image,
+                                 .map_scale_m_per_px = options.map_scale_m_per_px.value_or(0),
+                                 .steps = truth.steps ? std::to_string(*truth.steps) : "",
+                                 .evaluation = evaluation};
+  vo::write_file(folder / "report.html", odometry_report(folder, &for_report));
   if (options.common.json) {
     fmt::print("{}\n", metrics.dump(2));
     return;
@@ -129,6 +138,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
                fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
                fmt::format("{:.2f} +- {:.2f}", errors.heading_mean_deg, errors.heading_sd_deg));
   }
+  fmt::print("see {}\n", (folder / "report.html").string());
 }
 
 }  // namespace
@@ -142,8 +152,12 @@ Command add_evaluate_odometry(CLI::App& root) {
   app->add_option("--truth", options->truth,
                   "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up")
       ->required();
-  app->add_option("--map-scale-m-per-px", options->map_scale_m_per_px, "metres of one pixel of that map")
-      ->check(CLI::PositiveNumber);
+  CLI::Option* scale =
+      app->add_option("--map-scale-m-per-px", options->map_scale_m_per_px, "metres of one pixel of that map")
+          ->check(CLI::PositiveNumber);
+  app->add_option("--map-image", options->map_image, "that map, PNG or JPEG, to draw the trajectory over")
+      ->check(CLI::ExistingFile)
+      ->needs(scale);
   app->add_option("--true-steps", options->true_steps, "steps counted, where the truth has none")
       ->check(CLI::Range(0, 1000000000));
   app->add_option("--segments", evaluation.segments, "random segments measured [PVO 5.2]")

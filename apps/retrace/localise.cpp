@@ -1,9 +1,11 @@
 #include "localise.hpp"
 
 #include "command.hpp"
+#include "matches_file.hpp"
 #include "progress_bar.hpp"
 #include "report/matrix_picture.hpp"
-#include "report/page.hpp"
+#include "report/run_data.hpp"
+#include "report/run_report.hpp"
 #include "route_settings.hpp"
 #include "run_directory.hpp"
 #include "settings.hpp"
@@ -35,27 +37,6 @@ struct LocaliseOptions {
   std::string output;
   bool save_matrices = false;
 };
-
-std::string csv_field(const std::optional<double>& value) {
-  return value ? fmt::format("{:.6g}", *value) : "";
-}
-
-std::string matches_csv(const std::vector<place::Match>& matches) {
-  std::string csv =
-      "query_frame,query_time_s,traverse,reference_frame,reference_time_s,reference_distance_m,score,"
-      "accepted\n";
-  for (const place::Match& match : matches) {
-    csv += fmt::format("{},{:.6f},", match.query_frame, match.query_time_s);
-    if (match.place) {
-      csv += fmt::format("{},{},{:.6f},{}", match.place->traverse, match.place->frame, match.place->time_s,
-                         csv_field(match.place->distance_m));
-    } else {
-      csv += ",,,";
-    }
-    csv += fmt::format(",{:.9g},{}\n", match.score, match.accepted ? 1 : 0);
-  }
-  return csv;
-}
 
 /// The accepted matches' surveyed poses at the query's times: where the walker was.
 std::string trajectory_tum(const std::vector<place::Match>& matches) {
@@ -114,56 +95,39 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
   return json;
 }
 
-std::string report(const ordered_json& summary, const place::Route& route, const place::Localisation& found,
-                   const Settings& settings, const std::vector<std::vector<std::uint8_t>>& pictures) {
-  const auto count = [&](const char* name) { return std::to_string(summary[name].get<std::size_t>()); };
-  Page page("Where the walk was found", fmt::format("{} on {}", summary["query"].get<std::string>(),
-                                                    summary["route"].get<std::string>()));
-  page.facts({{"Query keyframes", fmt::format("{} of {} frames", count("queries"), count("query_frames"))},
-              {"Matched", count("matched")},
-              {"Accepted", fmt::format("{} (score {} or more)", count("accepted"),
-                                       settings.localiser.acceptance_threshold)},
-              {"On part of a line",
-               fmt::format("{}, of them accepted {} (within half a sequence of an end of either walk)",
-                           count("partial"), count("partial_accepted"))},
-              {"Sequence length", fmt::format("{} keyframes", found.sequence_length)},
-              {"Relative scale", fmt::format("{:.3f}", summary["relative_scale"].get<double>())}});
-  page.paragraph("Precision and recall need the truth: retrace evaluate.");
-  for (const auto& warning : summary["warnings"]) page.paragraph("Warning: " + warning.get<std::string>());
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    page.heading("Cost matrix against " + route.traverses[i].name);
-    page.picture(pictures[i], "Enhanced cost matrix with the matches over it",
-                 "Query keyframes from left to right, reference keyframes from bottom to top, dark where "
-                 "alike. Filled "
-                 "orange: accepted. Hollow blue: refused.");
+void print_table(const fs::path& folder, const ordered_json& summary) {
+  const auto row = [](std::string_view name, std::size_t count, std::string_view note) {
+    fmt::print("  {:<20}{:>7}   {}\n", name, count, note);
+  };
+  const auto count = [&](const char* name) { return summary[name].get<std::size_t>(); };
+  fmt::print("{} on {}\n", summary["query"].get<std::string>(), summary["route"].get<std::string>());
+  row("query keyframes", count("queries"), fmt::format("of {} frames", count("query_frames")));
+  row("matched", count("matched"), fmt::format("{} on part of a line", count("partial")));
+  row("accepted", count("accepted"),
+      fmt::format("score {:g} or more", summary["accept_score"].get<double>()));
+  for (const ordered_json& traverse : summary["traverses"]) {
+    row("route keyframes", traverse["keyframes"].get<std::size_t>(), traverse["name"].get<std::string>());
   }
-  page.heading("Settings");
-  std::vector<std::vector<std::string>> rows;
-  for (const SettingEntry& entry : entries(settings))
-    rows.push_back({entry.name, entry.value, entry.description});
-  page.table({"setting", "value", "what it is"}, rows);
-  return page.html();
+  fmt::print("see {}\n", (folder / "report.html").string());
 }
 
 void localise(const CLI::App& app, LocaliseOptions& options) {
   Settings& settings = options.settings;
   vo::set_thread_count(settings.threads);
   resolve(app, settings);
-  const place::Route route = place::read_route(options.route, {.previews = false});
+  const place::Route route = place::read_route(options.route);
   if (route.traverses.empty())
     throw vo::Error(options.route, "has no traverse", "a route built by `retrace build`");
   take_from_route(app, options.route, route, settings);
   const fs::path folder = options.output;
-  prepare_run_directory(folder,
-                        {"matches.csv", "trajectory.tum", "summary.json", "report.html", "config.toml"},
-                        options.common.force);
+  prepare_run_directory(
+      folder, {"matches.csv", "trajectory.tum", "summary.json", "report.html", kRunDataFile, "config.toml"},
+      options.common.force);
 
   vo::Walk walk;
   {
     ProgressBar bar;
-    vo::WalkOptions without_previews = settings.walk;
-    without_previews.preview_width_px = 0;
-    walk = vo::read_walk(options.walk, without_previews, bar.callback());
+    walk = vo::read_walk(options.walk, settings.walk, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   const auto [found, json] =
@@ -171,10 +135,7 @@ void localise(const CLI::App& app, LocaliseOptions& options) {
   if (options.common.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}: {} of {} query keyframes accepted ({} matched, {} on part of a line); see {}\n",
-               options.output, json["accepted"].get<std::size_t>(), found.matches.size(),
-               json["matched"].get<std::size_t>(), json["partial"].get<std::size_t>(),
-               (folder / "report.html").string());
+    print_table(folder, json);
   }
 }
 
@@ -187,20 +148,20 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
   place::Localisation found = place::localise(route, walk, sampled, settings.localiser);
 
-  std::vector<std::vector<std::uint8_t>> pictures;
-  for (std::size_t i = 0; i < route.traverses.size(); ++i) {
-    pictures.push_back(matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name));
-  }
   ordered_json json = summary(route, route_path, walk, settings, sampled, found);
   vo::write_file(folder / "matches.csv", matches_csv(found.matches));
   vo::write_file(folder / "trajectory.tum", trajectory_tum(found.matches));
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
-  vo::write_file(folder / "report.html", report(json, route, found, settings, pictures));
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
+  const ordered_json data = run_data(route, walk, sampled, found.matches, found.matrices);
+  vo::write_file(folder / kRunDataFile, data.dump());
+  vo::write_file(folder / "report.html", run_report(folder, data));
+  for (std::size_t i = 0; i < found.matrices.size(); ++i) {
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
+    const std::vector<std::uint8_t> png =
+        matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name);
     vo::write_file(folder / fmt::format("cost_matrix{}.png", suffix),
-                   {reinterpret_cast<const char*>(pictures[i].data()), pictures[i].size()});
+                   {reinterpret_cast<const char*>(png.data()), png.size()});
     if (!save_matrices) continue;
     vo::write_file(folder / fmt::format("D{}.csv", suffix), matrix_csv(found.matrices[i].cost));
     vo::write_file(folder / fmt::format("DD{}.csv", suffix), matrix_csv(found.matrices[i].enhanced));

@@ -112,6 +112,8 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
   vo::WalkMotionOptions motion_options = options.motion;
   motion_options.visual.patch = route.patch;
   vo::WalkMotion motion = vo::walk_motion(walk, sampling.motion, motion_options);
+  if (sampling.motion == vo::MotionSource::kSteps && motion.pedestrian->detection.steps.empty())
+    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
   if (motion.visual) {

@@ -76,34 +76,38 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
 }  // namespace
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
+  return read_walk(*open_frame_source(source, options.frames), source, options, progress);
+}
+
+Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options,
+               const ProgressCallback& progress) {
   if (options.preview_width_px < 0) throw std::invalid_argument("read_walk: preview_width_px must be >= 0");
-  const std::unique_ptr<FrameSource> frames = open_frame_source(source, options.frames);
-  const std::string stage = fmt::format("reading {}", source);
+  const std::string stage = fmt::format("reading {}", name);
   Walk walk;
-  walk.source = source;
+  walk.source = name;
   Trackers trackers{FeatureTracker(options.tracker), MonocularVo(options.vo)};
   walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
 
   // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
   // work, little enough for 4K video.
   const std::size_t batch_size = 4 * static_cast<std::size_t>(thread_count());
-  std::vector<Frame> batch = read_batch(*frames, batch_size);
+  std::vector<Frame> batch = read_batch(frames, batch_size);
   while (!batch.empty()) {
     std::vector<Frame> next;
-    parallel_invoke([&] { next = read_batch(*frames, batch_size); },
+    parallel_invoke([&] { next = read_batch(frames, batch_size); },
                     [&] { keep(batch, options, trackers, walk); });
     batch = std::move(next);
     if (progress && !progress({.stage = stage,
                                .done = static_cast<std::int64_t>(walk.frames()),
-                               .total = frames->expected_frames()})) {
+                               .total = frames.expected_frames()})) {
       break;
     }
   }
   if (walk.frames() < 2) {
-    throw Error(source, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
+    throw Error(name, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }
   if (options.visual_odometry) walk.track = trackers.visual_odometry.finish();
-  walk.warnings = frames->warnings();
+  walk.warnings = frames.warnings();
   return walk;
 }
 

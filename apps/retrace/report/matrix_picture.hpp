@@ -15,4 +15,7 @@ std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
                                          const std::vector<place::Match>& matches,
                                          const std::string& traverse, int side_px = 900);
 
+/// A PNG of a cost matrix alone, a pixel for a cell, the same way round; large ones shrunk likewise.
+std::vector<std::uint8_t> cost_picture(const place::CostMatrix& costs, int side_px = 1000);
+
 }  // namespace retrace

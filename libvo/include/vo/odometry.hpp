@@ -61,6 +61,10 @@ struct Walk {
 Walk read_walk(const std::string& source, const WalkOptions& options = {},
                const ProgressCallback& progress = {});
 
+/// The same of frames from anywhere; `name` stands for them in messages.
+Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options = {},
+               const ProgressCallback& progress = {});
+
 /// Settings of `visual_motion`.
 struct VisualMotionOptions {
   PatchNormalisationOptions patch;

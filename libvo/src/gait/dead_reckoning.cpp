@@ -104,4 +104,18 @@ DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> l
   return walk;
 }
 
+Trajectory dead_reckon(std::span<const double> displacement_m, std::span<const double> heading_rad,
+                       std::span<const double> time_s) {
+  if (displacement_m.size() != time_s.size() || heading_rad.size() != time_s.size())
+    throw std::invalid_argument("dead_reckon: one displacement and one heading per frame expected");
+  Trajectory trajectory;
+  double x_m = 0, y_m = 0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    x_m += displacement_m[i] * std::sin(heading_rad[i]);
+    y_m += displacement_m[i] * std::cos(heading_rad[i]);
+    trajectory.push_back({time_s[i], {x_m, y_m, wrap_angle_rad(heading_rad[i])}});
+  }
+  return trajectory;
+}
+
 }  // namespace vo
