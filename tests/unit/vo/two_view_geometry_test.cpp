@@ -53,9 +53,9 @@ TEST(TwoViewGeometry, FindsMotionAndPoints) {
   EXPECT_GT(result->inliers, 90U);  // points near the way's vanishing point say little
   std::vector<double> ratios;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i < 30)
+    if (i < 30) {
       EXPECT_FALSE(result->points[i]) << i;
-    else if (result->points[i])
+    } else if (result->points[i])
       ratios.push_back((*result->points[i])[2] / points[i][2]);
   }
   std::ranges::sort(ratios);
