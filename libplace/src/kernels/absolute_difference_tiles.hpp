@@ -2,6 +2,8 @@
 
 #include "kernels/absolute_difference.hpp"
 
+#include <algorithm>
+
 /// The sums of absolute differences, written once over any kind of lanes: tiles of a few queries by a few
 /// references whose sums stay in registers. `Lanes` has
 ///   Bytes, Sums                     register types
@@ -56,22 +58,30 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
   }
 }
 
-/// Tiles over all queries for kReferences references, which stay in the first-level cache meanwhile.
+/// Tiles over all queries for kReferences references, which stay in the first-level cache meanwhile, while
+/// the next ones are fetched.
 template <class Lanes, std::size_t kReferences>
 inline void sum_column(Tile tile, std::size_t queries) {
-  constexpr std::size_t kQueries = Lanes::kTileQueries;
-  const auto advance = [&tile](std::size_t by) {
-    tile.queries += by * tile.size;
-    tile.sums += by * tile.stride;
-  };
-  for (; queries >= kQueries; queries -= kQueries, advance(kQueries))
+  constexpr std::size_t kLine = 64;
+  const std::size_t bytes = kReferences * tile.size;
+  const std::size_t share = bytes * Lanes::kTileQueries / queries + kLine;
+  std::size_t fetched = 0;
+  const auto take = [&]<std::size_t kQueries>() {
+    for (const std::size_t end = std::min(bytes, fetched + share); fetched < end; fetched += kLine)
+      __builtin_prefetch(tile.references + bytes + fetched, 0, 2);
     sum_tile<Lanes, kQueries, kReferences>(tile);
-  for (; queries > 0; --queries, advance(1)) sum_tile<Lanes, 1, kReferences>(tile);
+    tile.queries += kQueries * tile.size;
+    tile.sums += kQueries * tile.stride;
+    queries -= kQueries;
+  };
+  while (queries >= Lanes::kTileQueries) take.template operator()<Lanes::kTileQueries>();
+  while (queries > 0) take.template operator()<1>();
 }
 
 template <class Lanes>
 inline void sum_all(ByteImages queries, ByteImages references, std::size_t size, std::uint32_t* sums,
                     std::size_t stride) {
+  if (queries.count == 0) return;
   if (size < Lanes::kBytes) return absolute_difference_scalar(queries, references, size, sums, stride);
   constexpr std::size_t kReferences = Lanes::kTileReferences;
   std::size_t j = 0;
