@@ -1,10 +1,10 @@
 #include "kernels/absolute_difference.hpp"
 #include "sad_limit.hpp"
 
+#include <faiss/utils/extra_distances.h>
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <faiss/utils/extra_distances.h>
 #include <opencv2/core.hpp>
 
 #include <place/contrast_enhancement.hpp>
@@ -147,8 +147,8 @@ void sequence_search(benchmark::State& state) {
 }
 BENCHMARK(sequence_search)
     ->ArgsProduct({{3576}, {10, 20, 50}, {1, 2}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
 
 void enhance(benchmark::State& state, place::Enhancement method) {
   vo::set_thread_count(1);
@@ -159,9 +159,7 @@ void enhance(benchmark::State& state, place::Enhancement method) {
     benchmark::DoNotOptimize(enhanced.values.data());
   }
 }
-BENCHMARK_CAPTURE(enhance, local, place::Enhancement::kLocal)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(enhance, standardise, place::Enhancement::kStandardise)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+BENCHMARK_CAPTURE(enhance, local, place::Enhancement::kLocal)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(enhance, standardise, place::Enhancement::kStandardise)->Unit(benchmark::kMillisecond);
 
 }  // namespace

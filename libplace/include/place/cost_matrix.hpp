@@ -29,6 +29,15 @@ struct CostMatrix {
 /// A matrix of zeros.
 CostMatrix make_cost_matrix(std::size_t queries, std::size_t references);
 
+/// What is known of costs before they come.
+struct CostRange {
+  double centre = 0;   ///< their mean
+  double largest = 0;  ///< no cost is further than this from it
+};
+
+/// The mean of costs and how far they lie from it.
+CostRange range_of(std::span<const float> costs);
+
 /// Settings of `cost_matrix`.
 struct CostOptions {
   /// Pixels of the descriptor. A pair's cost is the least over the query moved by up to so many to either
