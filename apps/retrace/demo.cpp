@@ -94,7 +94,7 @@ Run find(const DrawnWalk& day, const DrawnWalk& night, const Settings& sampled_s
   const CLI::App nothing_given;
   take_from_route(nothing_given, route_file.string(), route, settings);
   Run run{folder, 0, route.traverses.front().keyframes.size(), {}, {}};
-  if (settings.sampling.sampling.motion == place::MotionSource::kNone)
+  if (settings.sampling.sampling.motion == vo::MotionSource::kNone)
     run.every = settings.sampling.sampling.every;
   run.localised = localise_walk(route, route_file.string(), night.walk, settings, folder);
   run.evaluated = evaluate_run({.folder = folder.string(),
@@ -110,7 +110,7 @@ Run find(const DrawnWalk& day, const DrawnWalk& night, const Settings& sampled_s
 Settings vanilla_like(const Run& run, const DrawnWalk& day, const DrawnWalk& night, Settings settings) {
   const auto frames = static_cast<double>(day.walk.frames() + night.walk.frames());
   const auto keyframes = static_cast<double>(run.references + run.localised.found.matches.size());
-  settings.sampling.sampling.motion = place::MotionSource::kNone;
+  settings.sampling.sampling.motion = vo::MotionSource::kNone;
   settings.sampling.sampling.every = std::max(1, static_cast<int>(std::lround(frames / keyframes)));
   return settings;
 }

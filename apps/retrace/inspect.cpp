@@ -30,7 +30,7 @@ ordered_json as_json(const std::string& path, const place::Route& route) {
                       {"min_deviation", route.patch.min_deviation},
                       {"min_contrast", route.patch.min_contrast}}},
                     {"sampling",
-                     {{"motion", place::name_of(route.sampling.motion)},
+                     {{"motion", vo::name_of(route.sampling.motion)},
                       {"every", route.sampling.every},
                       {"n", route.sampling.n},
                       {"unit", route.sampling.unit}}},
@@ -77,11 +77,11 @@ void print(const std::string& path, const place::Route& route) {
       "thumbnails {}x{} px; patches {} px, {}, at least {} grey levels or {} of their median deviation\n",
       route.thumbnail.width, route.thumbnail.height, route.patch.patch_px, name_of(route.patch.shape),
       route.patch.min_deviation, route.patch.min_contrast);
-  if (route.sampling.motion == place::MotionSource::kNone) {
+  if (route.sampling.motion == vo::MotionSource::kNone) {
     fmt::print("sampling: every {} frames\n", route.sampling.every);
   } else {
-    const bool metric = route.sampling.motion == place::MotionSource::kSteps;
-    fmt::print("sampling: by {}, unit {:.4f} {} (n = {})\n", place::name_of(route.sampling.motion),
+    const bool metric = route.sampling.motion == vo::MotionSource::kSteps;
+    fmt::print("sampling: by {}, unit {:.4f} {} (n = {})\n", vo::name_of(route.sampling.motion),
                route.sampling.unit, metric ? "m" : "frames of mean speed", route.sampling.n);
   }
   for (const place::Traverse& traverse : route.traverses) {

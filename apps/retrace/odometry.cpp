@@ -132,7 +132,7 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
     walk = vo::read_walk(options.walk, settings.walk, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
-  vo::PedestrianMotionOptions& pedestrian = settings.sampling.pedestrian;
+  vo::PedestrianMotionOptions& pedestrian = settings.sampling.motion.pedestrian;
   vo::PedestrianMotion motion = vo::pedestrian_motion(walk, pedestrian);
   if (options.walk_length_m) {
     if (motion.detection.steps.empty()) {

@@ -41,7 +41,7 @@ void take_from_route(const CLI::App& app, const std::string& path, const place::
   } else if (route.sampling.unit > 0) {
     sampling.unit = route.sampling.unit / route.sampling.n * sampling.n;  // Eq. 4 is linear in n
   }
-  if (sampling.motion != place::MotionSource::kNone && sampling.motion != route.sampling.motion) {
+  if (sampling.motion != vo::MotionSource::kNone && sampling.motion != route.sampling.motion) {
     throw vo::Error(path,
                     fmt::format("was sampled with --motion {}, which has another unit than --motion {}",
                                 name_of(route.sampling.motion), name_of(sampling.motion)),

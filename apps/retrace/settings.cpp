@@ -63,10 +63,14 @@ void add_frame_options(CLI::App& app, Settings& s) {
 
 void add_sampling_options(CLI::App& app, Settings& s) {
   add_choice(app, kSampling, "--motion", s.sampling.sampling.motion,
-             {{"sad", place::MotionSource::kSad},
-              {"steps", place::MotionSource::kSteps},
-              {"none", place::MotionSource::kNone}},
-             "what walks are resampled by: alignment error [SSS 3.2], steps [PVO], or nothing");
+             {{"sad", vo::MotionSource::kSad},
+              {"steps", vo::MotionSource::kSteps},
+              {"hybrid", vo::MotionSource::kHybrid},
+              {"vo", vo::MotionSource::kVisualOdometry},
+              {"file", vo::MotionSource::kFile},
+              {"none", vo::MotionSource::kNone}},
+             "what walks are resampled by: alignment error [SSS 3.2], steps [PVO], both and visual odometry "
+             "[SSS 3.5], visual odometry alone, the trajectory of --motion-file, or nothing");
   add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
       ->check(CLI::Range(1, 1000000));
   add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
@@ -74,22 +78,22 @@ void add_sampling_options(CLI::App& app, Settings& s) {
   add(app, kSampling, "--spacing-m", s.sampling.sampling.spacing_m,
       "metres between keyframes, instead of SSS Eq. 4; with motion in metres (steps)")
       ->check(CLI::PositiveNumber);
-  add(app, kSampling, "--separations", s.sampling.motion.model.separations,
+  add(app, kSampling, "--separations", s.sampling.motion.visual.model.separations,
       "frame separations compared for each frame's motion, 1 is SSS Eq. 3 to the letter")
       ->check(CLI::Range(1, 10));
-  add(app, kSampling, "--max-speed", s.sampling.motion.model.max_speed,
+  add(app, kSampling, "--max-speed", s.sampling.motion.visual.model.max_speed,
       "times the walk's mean speed; what seems faster is a turn or a jolt")
       ->check(CLI::PositiveNumber);
-  add(app, kSampling, "--standing-span-s", s.sampling.motion.standing.span_s,
+  add(app, kSampling, "--standing-span-s", s.sampling.motion.visual.standing.span_s,
       "seconds after which an unchanged view means standing still; 0 never does")
       ->check(CLI::NonNegativeNumber);
-  add(app, kSampling, "--local-window-s", s.sampling.motion.model.local_window_s,
+  add(app, kSampling, "--local-window-s", s.sampling.motion.visual.model.local_window_s,
       "seconds, learn motion from the last so many only [SSS 3]; 0 for the whole walk")
       ->check(CLI::NonNegativeNumber);
-  add(app, kSampling, "--high-error-mads", s.sampling.motion.alignment.high_error_mads,
+  add(app, kSampling, "--high-error-mads", s.sampling.motion.visual.alignment.high_error_mads,
       "median absolute deviations above which a window is left out of learning [SSS 6]")
       ->check(CLI::NonNegativeNumber);
-  add(app, kSampling, "--smoothing-s", s.sampling.motion.alignment.smoothing_s,
+  add(app, kSampling, "--smoothing-s", s.sampling.motion.visual.alignment.smoothing_s,
       "seconds, window over which the error is smoothed for that [SSS Fig. 10]")
       ->check(CLI::NonNegativeNumber);
   add(app, kSampling, "--tie-scale", s.sampling.tie_scale,
@@ -99,7 +103,7 @@ void add_sampling_options(CLI::App& app, Settings& s) {
 
 void add_odometry_options(CLI::App& app, Settings& s) {
   vo::FeatureTrackerOptions& tracker = s.walk.tracker;
-  vo::PedestrianMotionOptions& pedestrian = s.sampling.pedestrian;
+  vo::PedestrianMotionOptions& pedestrian = s.sampling.motion.pedestrian;
   add(app, kOdometry, "--fov-deg", tracker.fov_deg,
       "degrees, horizontal field of view of the camera [PVO 5.3]")
       ->check(CLI::Range(10.0, 170.0));
@@ -226,7 +230,7 @@ bool given(const CLI::App& app, const std::string& option) {
 }
 
 void follow_motion(Settings& settings) {
-  settings.walk.track_features = settings.sampling.sampling.motion == place::MotionSource::kSteps;
+  vo::keep_for(settings.sampling.sampling.motion, settings.walk);
 }
 
 void resolve(const CLI::App& app, Settings& settings) {
@@ -249,11 +253,11 @@ void resolve(const CLI::App& app, Settings& settings) {
     throw vo::Error("search settings", reason);
   }
   const place::Sampling& sampling = settings.sampling.sampling;
-  if (sampling.motion != place::MotionSource::kNone && sampling.every != 1) {
+  if (sampling.motion != vo::MotionSource::kNone && sampling.every != 1) {
     throw vo::Error("--every", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "--motion none --every K");
   }
-  if (sampling.spacing_m && sampling.motion != place::MotionSource::kSteps) {
+  if (sampling.spacing_m && sampling.motion != vo::MotionSource::kSteps) {
     throw vo::Error("--spacing-m", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "motion in metres: --motion steps");
   }

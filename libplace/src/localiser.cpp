@@ -88,14 +88,6 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
       walk.source, model.separation.back())};
 }
 
-std::vector<double> displacement_of_steps(const vo::Walk& walk, const vo::PedestrianMotionOptions& options) {
-  vo::PedestrianMotion motion = vo::pedestrian_motion(walk, options);
-  if (motion.detection.steps.empty()) {
-    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
-  }
-  return std::move(motion.displacement_m);
-}
-
 Place place_of(const Traverse& traverse, std::size_t keyframe) {
   const Keyframe& k = traverse.keyframes[keyframe];
   return {.traverse = traverse.name,
@@ -112,19 +104,18 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
                         const WalkSamplingOptions& options) {
   SampledWalk sampled;
   const Sampling& sampling = options.sampling;
-  if (sampling.motion == MotionSource::kNone) {
+  if (sampling.motion == vo::MotionSource::kNone) {
     sampled.frames = every_kth(walk.frames(), static_cast<std::size_t>(sampling.every));
     sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
     return sampled;
   }
-  if (sampling.motion == MotionSource::kSteps) {
-    sampled.displacement = displacement_of_steps(walk, options.pedestrian);
-  } else {
-    vo::VisualMotionOptions motion_options = options.motion;
-    motion_options.patch = route.patch;
-    vo::VisualMotion motion = vo::visual_motion(walk, motion_options);
-    sampled.displacement = std::move(motion.displacement);
-    sampled.motion_model = std::move(motion.model);
+  vo::WalkMotionOptions motion_options = options.motion;
+  motion_options.visual.patch = route.patch;
+  vo::WalkMotion motion = vo::walk_motion(walk, sampling.motion, motion_options);
+  sampled.displacement = vo::displacements(motion);
+  sampled.metric = motion.metric;
+  if (motion.visual) {
+    sampled.motion_model = std::move(motion.visual->model);
     sampled.warnings = motion_warnings(walk, sampled.motion_model);
   }
   const double eq4 = sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4

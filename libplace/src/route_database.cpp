@@ -64,9 +64,10 @@ std::int64_t checksum(std::span<const std::uint8_t> bytes) {
   return std::bit_cast<std::int64_t>(hash);
 }
 
-std::optional<MotionSource> motion_source(std::string_view name) {
-  for (const MotionSource motion : {MotionSource::kNone, MotionSource::kSad, MotionSource::kSteps}) {
-    if (name == name_of(motion)) return motion;
+std::optional<vo::MotionSource> motion_source(std::string_view name) {
+  using enum vo::MotionSource;
+  for (const vo::MotionSource motion : {kNone, kSad, kSteps, kVisualOdometry, kHybrid, kFile}) {
+    if (name == vo::name_of(motion)) return motion;
   }
   return std::nullopt;
 }
@@ -222,18 +223,6 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
 
 }  // namespace
 
-std::string_view name_of(MotionSource motion) {
-  switch (motion) {
-    case MotionSource::kNone:
-      return "none";
-    case MotionSource::kSad:
-      return "sad";
-    case MotionSource::kSteps:
-      return "steps";
-  }
-  throw std::invalid_argument("name_of: no motion source");
-}
-
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options) {
   const std::string shown = path.string();
   if (!std::filesystem::exists(path))
@@ -272,7 +261,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
       row.text() == name_of(vo::PatchShape::kWindow) ? vo::PatchShape::kWindow : vo::PatchShape::kGrid;
   route.patch.min_deviation = row.real();
   route.patch.min_contrast = row.real();
-  const std::optional<MotionSource> motion = motion_source(row.text());
+  const std::optional<vo::MotionSource> motion = motion_source(row.text());
   if (!motion) damaged(shown, "its motion source is unknown");
   route.sampling.motion = *motion;
   route.sampling.every = static_cast<int>(row.integer());
@@ -309,7 +298,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
         .bind(name_of(route.patch.shape))
         .bind(route.patch.min_deviation)
         .bind(route.patch.min_contrast)
-        .bind(name_of(route.sampling.motion))
+        .bind(vo::name_of(route.sampling.motion))
         .bind(std::int64_t{route.sampling.every})
         .bind(route.sampling.n)
         .bind(route.sampling.unit)

@@ -1,6 +1,7 @@
 #include "vo/odometry.hpp"
 
 #include "vo/base/error.hpp"
+#include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
 
 #include <algorithm>
@@ -92,21 +93,38 @@ Walk read_walk(const std::string& source, const WalkOptions& options, const Prog
   return walk;
 }
 
+namespace {
+
+/// False for frames of next to no contrast, and those that are compared with one.
+std::vector<bool> with_contrast(const Walk& walk, const VisualMotionOptions& options) {
+  const std::vector<double> contrast = patch_contrast(walk.thumbnails, options.patch.patch_px);
+  const double least = options.min_contrast * median(contrast);
+  std::vector<bool> seen(contrast.size());
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    seen[i] = contrast[i] >= least && (i == 0 || contrast[i - 1] >= least);
+  return seen;
+}
+
+}  // namespace
+
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options) {
   const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);  // SSS Eq. 2
   const double unlike = distant_error(normalised);
   if (standing_still(unlike)) {
     throw Error(walk.source, "shows no motion to learn from", "a walk along which the scene changes");
   }
-  const AlignmentErrors errors = alignment_errors(normalised, options.alignment);                 // Eq. 1
-  const std::vector<bool> excluded = high_error_windows(errors, walk.time_s, options.alignment);  // Fig. 10
-  const std::vector<double> mean_error = mean_error_by_separation(errors, excluded);              // Fig. 2
   VisualMotion motion;
-  motion.model = learn_motion_model(mean_error);                                        // Fig. 3
-  motion.displacement = estimate_motion(errors, excluded, walk.time_s, options.model);  // Eq. 3
+  motion.errors = alignment_errors(normalised, options.alignment);  // Eq. 1
+  const std::vector<bool> excluded =
+      high_error_windows(motion.errors, walk.time_s, options.alignment);                       // Fig. 10
+  const std::vector<double> mean_error = mean_error_by_separation(motion.errors, excluded);    // Fig. 2
+  motion.model = learn_motion_model(mean_error);                                               // Fig. 3
+  motion.displacement = estimate_motion(motion.errors, excluded, walk.time_s, options.model);  // Eq. 3
   motion.standing = standing_steps(normalised, walk.time_s, unlike, options.standing);
+  motion.usable = with_contrast(walk, options);
   for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
     if (motion.standing[i]) motion.displacement[i] = 0;
+    if (excluded[i]) motion.usable[i] = false;
   }
   return motion;
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <vo/base/progress.hpp>
-#include <vo/odometry.hpp>
+#include <vo/walk_motion.hpp>
 
 /// The whole library on one screen: a walk becomes keyframes, a first one becomes a route, another is found
 /// on it.
@@ -20,8 +20,7 @@ namespace place {
 
 /// Settings of `sample_walk`.
 struct WalkSamplingOptions {
-  vo::VisualMotionOptions motion;  ///< its `patch` is overruled by the route's
-  vo::PedestrianMotionOptions pedestrian;
+  vo::WalkMotionOptions motion;  ///< its `visual.patch` is overruled by the route's
   Sampling sampling;
   bool tie_scale = true;  ///< bring a walk to the spacing of the route's first traverse (`relative_scale`)
   RelativeScaleOptions relative_scale;
@@ -33,7 +32,8 @@ struct SampledWalk {
   std::vector<double>
       displacement;              ///< of every frame of the walk since the one before; empty without motion
   vo::ImageStack thumbnails;     ///< of the keyframes
-  vo::MotionModel motion_model;  ///< learned on the walk; nothing in it without motion
+  vo::MotionModel motion_model;  ///< of alignment error, learned on the walk; nothing in it without
+  bool metric = false;           ///< the displacement is in metres
   double scale = 1;              ///< the displacement was multiplied by this to fit the route's
   double unit = 0;               ///< displacement between keyframes (SSS Eq. 4); 0 without motion
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes

@@ -12,19 +12,13 @@
 #include <vo/image/patch_normalisation.hpp>
 #include <vo/image/thumbnail.hpp>
 #include <vo/motion/motion_model.hpp>
+#include <vo/motion/motion_source.hpp>
 
 namespace place {
 
-/// Where the displacement that a walk is resampled by comes from.
-enum class MotionSource {
-  kNone,   ///< nowhere: every k-th frame (the vanilla of SSS)
-  kSad,    ///< alignment error, through the learned motion model (SSS 3.2)
-  kSteps,  ///< steps, in metres (PVO)
-};
-
 /// How walks on a route become keyframes; the same for all of them, so that their keyframes are comparable.
 struct Sampling {
-  MotionSource motion = MotionSource::kSad;
+  vo::MotionSource motion = vo::MotionSource::kSad;
   int every = 1;                    ///< frames between keyframes, with `kNone`
   double n = 6;                     ///< SSS Eq. 4's n, with motion
   std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4; with metric motion
@@ -85,8 +79,5 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
 /// give equal bytes. Throws `vo::Error` if it cannot be written, `std::invalid_argument` if a traverse's
 /// thumbnails do not fit its keyframes or the route's thumbnail size, or two traverses share a name.
 void write_route(const std::filesystem::path& path, const Route& route);
-
-/// "none", "sad", "steps".
-std::string_view name_of(MotionSource motion);
 
 }  // namespace place

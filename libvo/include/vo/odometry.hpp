@@ -13,10 +13,12 @@
 #include "vo/image/thumbnail.hpp"
 #include "vo/io/frame_source.hpp"
 #include "vo/motion/alignment_error.hpp"
+#include "vo/motion/displacement_track.hpp"
 #include "vo/motion/motion_model.hpp"
 #include "vo/motion/standing.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,8 +30,9 @@ namespace vo {
 struct WalkOptions {
   FrameSourceOptions frames;
   ThumbnailOptions thumbnail;
-  int preview_width_px = 160;   ///< width of the small JPEG kept of every frame; 0 keeps none
-  bool track_features = false;  ///< SURF points are followed, for `pedestrian_motion`
+  int preview_width_px = 160;    ///< width of the small JPEG kept of every frame; 0 keeps none
+  bool track_features = false;   ///< SURF points are followed, for `pedestrian_motion`
+  bool visual_odometry = false;  ///< monocular visual odometry gives `Walk::track`
   FeatureTrackerOptions tracker;
 };
 
@@ -42,9 +45,10 @@ struct Walk {
   std::vector<double> time_s;  ///< of each frame, since the first, strictly increasing
   ImageStack thumbnails;       ///< grey, one for each frame
   std::vector<std::vector<std::uint8_t>>
-      previews;                       ///< JPEG, one for each frame; empty if none were asked for
-  std::vector<FrameMotion> tracked;   ///< by the points followed, one for each frame; empty if they were not
-  std::vector<std::string> warnings;  ///< what a user should know of the recording
+      previews;                      ///< JPEG, one for each frame; empty if none were asked for
+  std::vector<FrameMotion> tracked;  ///< by the points followed, one for each frame; empty if they were not
+  std::optional<DisplacementTrack> track;  ///< by visual odometry or from a file, where there is one
+  std::vector<std::string> warnings;       ///< what a user should know of the recording
 
   [[nodiscard]] std::size_t frames() const { return time_s.size(); }
 };
@@ -61,6 +65,7 @@ struct VisualMotionOptions {
   AlignmentErrorOptions alignment;
   MotionModelOptions model;
   StandingOptions standing;
+  double min_contrast = 0.25;  ///< share of the walk's median, below which a picture shows too little
 };
 
 /// The displacement of every frame since the one before it (the first: 0), from alignment error
@@ -69,6 +74,8 @@ struct VisualMotion {
   std::vector<double> displacement;  ///< frames at mean walking speed
   std::vector<bool> standing;        ///< the steps, among them, that are 0 because the walker stands
   MotionModel model;                 ///< learned on the whole walk
+  AlignmentErrors errors;            ///< that all of this was learned from
+  std::vector<bool> usable;  ///< false for frames in windows of high error, and of next to no contrast
 };
 
 /// Patch normalisation -> alignment errors -> windows of high error left out -> motion model -> displacement

@@ -1,5 +1,7 @@
 #include "vo/gait/dead_reckoning.hpp"
 
+#include "vo/base/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,27 +10,42 @@
 namespace vo {
 namespace {
 
-/// When each step begins.
-std::vector<double> begin_of_steps_s(std::span<const Step> steps, double pause_s) {
-  std::vector<double> durations_s;
-  for (std::size_t i = 1; i < steps.size(); ++i) durations_s.push_back(steps[i].time_s - steps[i - 1].time_s);
-  const auto is_step = [&](std::size_t i) { return i < durations_s.size() && durations_s[i] <= pause_s; };
-
-  std::vector<double> usual_s;
-  std::ranges::copy_if(durations_s, std::back_inserter(usual_s), [&](double s) { return s <= pause_s; });
-  if (usual_s.empty()) usual_s = {0.5};
-  const auto median = usual_s.begin() + static_cast<std::ptrdiff_t>(usual_s.size() / 2);
-  std::ranges::nth_element(usual_s, median);
-
-  std::vector<double> begin_s;
+/// When each step is done, as if left and right took equally long: half of what an interval that ends with a
+/// right step is longer than one that ends with a left (medians) is taken from the one and given to the
+/// other.
+std::vector<double> even_times_s(std::span<const Step> steps, double pause_s) {
+  std::vector<double> to_left_s, to_right_s, time_s;
   for (std::size_t i = 0; i < steps.size(); ++i) {
+    time_s.push_back(steps[i].time_s);
+    if (i == 0 || steps[i].leg == steps[i - 1].leg) continue;
+    const double interval_s = steps[i].time_s - steps[i - 1].time_s;
+    if (interval_s <= pause_s) (steps[i].leg == Leg::kLeft ? to_left_s : to_right_s).push_back(interval_s);
+  }
+  if (to_left_s.empty() || to_right_s.empty()) return time_s;
+  const double later_s = (median(to_left_s) - median(to_right_s)) / 4;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    time_s[i] += steps[i].leg == Leg::kRight ? later_s : -later_s;
+  return time_s;
+}
+
+/// How long each step takes: since the one before it, or as the usual one after a pause.
+std::vector<double> durations_s(std::span<const double> done_s, double pause_s) {
+  std::vector<double> between_s, usual_s;
+  for (std::size_t i = 1; i < done_s.size(); ++i) between_s.push_back(done_s[i] - done_s[i - 1]);
+  const auto is_step = [&](std::size_t i) { return i < between_s.size() && between_s[i] <= pause_s; };
+  std::ranges::copy_if(between_s, std::back_inserter(usual_s), [&](double s) { return s <= pause_s; });
+  if (usual_s.empty()) usual_s = {0.5};
+  const double usual_step_s = median(usual_s);
+
+  std::vector<double> duration_s;
+  for (std::size_t i = 0; i < done_s.size(); ++i) {
     if (i > 0 && is_step(i - 1)) {
-      begin_s.push_back(steps[i - 1].time_s);
+      duration_s.push_back(between_s[i - 1]);
     } else {
-      begin_s.push_back(steps[i].time_s - (is_step(i) ? durations_s[i] : *median));
+      duration_s.push_back(is_step(i) ? between_s[i] : usual_step_s);
     }
   }
-  return begin_s;
+  return duration_s;
 }
 
 }  // namespace
@@ -37,18 +54,25 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
                                         std::span<const double> time_s, const DeadReckoningOptions& options) {
   if (lengths_m.size() != steps.size())
     throw std::invalid_argument("step_displacement_m: one length per step expected");
-  std::vector<double> displacement_m(time_s.size(), 0);
-  const std::vector<double> begin_s = begin_of_steps_s(steps, options.pause_s);
-  std::size_t before = 0;  // the frame of the step before
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const std::size_t frame = steps[i].frame;
-    if (frame <= before || frame >= time_s.size())
+    if (steps[i].frame <= (i == 0 ? 0 : steps[i - 1].frame) || steps[i].frame >= time_s.size())
       throw std::invalid_argument("step_displacement_m: frames that increase, of the walk, expected");
-    const double first_s = std::max(begin_s[i], time_s[before]);
-    const double metres_per_s = lengths_m[i] / (time_s[frame] - first_s);
-    for (std::size_t f = frame; f > before && time_s[f] > first_s; --f)
-      displacement_m[f] = metres_per_s * (time_s[f] - std::max(time_s[f - 1], first_s));
-    before = frame;
+  }
+  std::vector<double> displacement_m(time_s.size(), 0);
+  const std::vector<double> done_s = even_times_s(steps, options.pause_s);
+  const std::vector<double> duration_s = durations_s(done_s, options.pause_s);
+  double before_s = time_s.empty() ? 0 : time_s.front();  // the end of the step before
+  std::size_t frame = 1;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double end_s = std::clamp(done_s[i], before_s, time_s.back());
+    const double begin_s = std::max(end_s - duration_s[i], before_s);
+    const double metres_per_s = lengths_m[i] / (end_s - begin_s);
+    for (; frame < time_s.size() && time_s[frame - 1] < end_s; ++frame) {
+      const double shared_s = std::min(time_s[frame], end_s) - std::max(time_s[frame - 1], begin_s);
+      if (shared_s > 0) displacement_m[frame] += metres_per_s * shared_s;
+      if (time_s[frame] > end_s) break;  // the next step begins within this frame
+    }
+    before_s = end_s;
   }
   return displacement_m;
 }

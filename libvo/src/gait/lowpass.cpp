@@ -1,11 +1,14 @@
 #include "vo/gait/lowpass.hpp"
 
+#include "vo/base/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,9 +21,7 @@ double frame_rate_hz(std::span<const double> time_s) {
   }
   std::vector<double> gap_s(time_s.size() - 1);
   for (std::size_t i = 0; i < gap_s.size(); ++i) gap_s[i] = time_s[i + 1] - time_s[i];
-  const auto median = gap_s.begin() + static_cast<std::ptrdiff_t>(gap_s.size() / 2);
-  std::ranges::nth_element(gap_s, median);
-  return 1 / *median;
+  return 1 / median(std::move(gap_s));
 }
 
 std::vector<double> bridge_gaps(std::span<const double> values, const std::vector<bool>& reliable) {

@@ -1,5 +1,7 @@
 #include "vo/gait/periodicity.hpp"
 
+#include "vo/base/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -114,9 +116,7 @@ std::vector<double> local_gait_amplitude_deg(std::span<const Periodicity> window
     for (std::size_t i = first; i < windows.size() && windows[i].frame <= frame + windows[i].reach; ++i)
       if (windows[i].gait) covering.push_back(windows[i].amplitude_deg);
     if (covering.empty()) continue;
-    const auto median = covering.begin() + static_cast<std::ptrdiff_t>(covering.size() / 2);
-    std::ranges::nth_element(covering, median);
-    local[frame] = *median;
+    local[frame] = median(covering);
   }
   return local;
 }

@@ -1,11 +1,13 @@
 #include "vo/gait/step_detection.hpp"
 
+#include "vo/base/median.hpp"
 #include "vo/gait/lowpass.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace vo {
 namespace {
@@ -21,12 +23,6 @@ void check(std::span<const double> signal_deg, std::span<const double> time_s,
     throw std::invalid_argument("detect_steps: ratios >= 0 expected");
   if (options.pairs == 0 || !(options.pause_s > 0) || !(options.max_bridged_s >= 0))
     throw std::invalid_argument("detect_steps: pairs and pause_s above 0, max_bridged_s >= 0 expected");
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// Extrema that obey the sign rule, where a plateau is one extremum at its first frame.

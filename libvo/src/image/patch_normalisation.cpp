@@ -119,6 +119,15 @@ void patch_normalise(std::span<const std::uint8_t> image, int width, int height,
   }
 }
 
+std::vector<double> patch_contrast(const ImageStack& images, int patch_px) {
+  if (patch_px < 2) throw std::invalid_argument("patch_contrast: patch_px must be >= 2");
+  std::vector<double> contrast(images.size());
+  parallel_for(images.size(), [&](std::size_t i) {
+    contrast[i] = PatchSums(images[i], images.width, images.height).median_deviation(patch_px);
+  });
+  return contrast;
+}
+
 ImageStack patch_normalise(const ImageStack& images, const PatchNormalisationOptions& options) {
   ImageStack normalised = make_image_stack(images.width, images.height, images.size());
   if (images.empty()) return normalised;

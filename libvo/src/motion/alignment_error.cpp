@@ -1,5 +1,6 @@
 #include "vo/motion/alignment_error.hpp"
 
+#include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
 #include "vo/image/patch_normalisation.hpp"
 
@@ -9,16 +10,6 @@
 #include <stdexcept>
 
 namespace vo {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
-}  // namespace
-
 double alignment_error(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
   if (a.size() != b.size() || a.empty())
     throw std::invalid_argument("alignment_error: two images of one size expected");

@@ -60,6 +60,15 @@ class Curve {
 /// estimates[k - 1][i]: speed from frames i and i + k; infinite where there is none to be had.
 using SpeedEstimates = std::vector<std::vector<double>>;
 
+SpeedEstimates empty_estimates(const AlignmentErrors& errors, int separations) {
+  if (separations < 1 || separations > errors.max_separation()) {
+    throw std::invalid_argument("estimate_motion: separations must be in 1 .. max_separation");
+  }
+  SpeedEstimates estimates(static_cast<std::size_t>(separations));
+  for (std::size_t k = 1; k <= estimates.size(); ++k) estimates[k - 1].resize(errors.by_separation[k].size());
+  return estimates;
+}
+
 void estimate_speeds(const AlignmentErrors& errors, const MotionModel& model, std::size_t begin,
                      std::size_t end, SpeedEstimates& estimates) {
   const Curve curve(model);
@@ -86,6 +95,14 @@ double least_speed(const SpeedEstimates& estimates, std::size_t j) {
     if (first <= last) least = std::min(least, sum / static_cast<double>(last - first + 1));
   }
   return least;
+}
+
+std::vector<double> least_speeds(const SpeedEstimates& estimates, std::size_t frames,
+                                 double max_displacement) {
+  std::vector<double> displacement(frames, 0.0);
+  for (std::size_t j = 0; j + 1 < frames; ++j)
+    displacement[j + 1] = std::min(max_displacement, least_speed(estimates, j));
+  return displacement;
 }
 
 /// Mean errors over frames [begin, end) only.
@@ -118,44 +135,77 @@ std::vector<double> separation_of(const MotionModel& model, std::span<const floa
   return separations;
 }
 
-std::vector<double> estimate_motion(const AlignmentErrors& errors, const std::vector<bool>& excluded,
-                                    std::span<const double> time_s, const MotionModelOptions& options) {
-  if (options.separations < 1 || options.separations > errors.max_separation()) {
-    throw std::invalid_argument("estimate_motion: separations must be in 1 .. max_separation");
-  }
-  if (!(options.max_speed > 0)) throw std::invalid_argument("estimate_motion: max_speed must be positive");
-  const std::size_t frames = errors.frames();
-  std::vector<double> displacement(frames, 0.0);
-  if (frames < 2) return displacement;
-
-  SpeedEstimates estimates(static_cast<std::size_t>(options.separations));
-  for (std::size_t k = 1; k <= estimates.size(); ++k) estimates[k - 1].resize(errors.by_separation[k].size());
-  if (options.local_window_s <= 0) {
-    const MotionModel model = learn_motion_model(mean_error_by_separation(errors, excluded));
-    if (!model.learned()) return displacement;
-    estimate_speeds(errors, model, 0, frames, estimates);
-  } else {
-    if (time_s.size() != frames) throw std::invalid_argument("estimate_motion: one time per frame expected");
-    // A new model every quarter of a window, learned from the window that ends there; the first one serves
-    // until then.
-    const double hop_s = options.local_window_s / 4;
-    std::size_t begin = 0;
-    for (double end_s = options.local_window_s;; end_s += hop_s) {
-      const auto frame_at = [&](double s) {
-        return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
-      };
-      const std::size_t end = frame_at(end_s);
-      const std::size_t first = frame_at(end_s - options.local_window_s);
-      const MotionModel model = learn_motion_model(mean_errors_within(errors, excluded, first, end));
-      if (model.learned()) estimate_speeds(errors, model, begin, end, estimates);
-      if (end >= frames) break;
-      begin = end;
+MotionModel learn_motion_model(const AlignmentErrors& errors, std::span<const double> displacement,
+                               const std::vector<bool>& known) {
+  if (displacement.size() != errors.frames() || known.size() != errors.frames())
+    throw std::invalid_argument("learn_motion_model: one displacement and one flag per frame expected");
+  MotionModel model{.error = {0}, .separation = {0}};
+  struct Pair {
+    double displacement, error;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i + 1 < known.size(); ++i) {
+    double travelled = 0;
+    for (std::size_t s = 1; s < errors.by_separation.size() && i + s < known.size() && known[i + s]; ++s) {
+      travelled += displacement[i + s];
+      pairs.push_back({travelled, errors.by_separation[s][i]});
     }
   }
-  for (std::size_t j = 0; j + 1 < frames; ++j) {
-    displacement[j + 1] = std::min(options.max_speed, least_speed(estimates, j));
+  if (pairs.size() < 10 * kMotionModelBins) return model;
+  std::ranges::stable_sort(pairs, {}, &Pair::displacement);
+  for (std::size_t bin = 0; bin < kMotionModelBins; ++bin) {
+    const std::size_t begin = pairs.size() * bin / kMotionModelBins;
+    const std::size_t end = pairs.size() * (bin + 1) / kMotionModelBins;
+    Pair mean{0, 0};
+    for (std::size_t i = begin; i < end; ++i) {
+      mean.displacement += pairs[i].displacement / static_cast<double>(end - begin);
+      mean.error += pairs[i].error / static_cast<double>(end - begin);
+    }
+    if (!(mean.displacement > model.separation.back())) continue;  // standing
+    if (!(mean.error > model.error.back())) break;                 // saturated
+    model.error.push_back(mean.error);
+    model.separation.push_back(mean.displacement);
   }
-  return displacement;
+  return model;
+}
+
+std::vector<double> apply_motion_model(const AlignmentErrors& errors, const MotionModel& model,
+                                       int separations, double max_displacement) {
+  if (!(max_displacement > 0))
+    throw std::invalid_argument("apply_motion_model: max_displacement must be positive");
+  SpeedEstimates estimates = empty_estimates(errors, separations);
+  if (!model.learned()) return std::vector<double>(errors.frames(), 0.0);
+  estimate_speeds(errors, model, 0, errors.frames(), estimates);
+  return least_speeds(estimates, errors.frames(), max_displacement);
+}
+
+std::vector<double> estimate_motion(const AlignmentErrors& errors, const std::vector<bool>& excluded,
+                                    std::span<const double> time_s, const MotionModelOptions& options) {
+  if (!(options.max_speed > 0)) throw std::invalid_argument("estimate_motion: max_speed must be positive");
+  SpeedEstimates estimates = empty_estimates(errors, options.separations);
+  const std::size_t frames = errors.frames();
+  if (frames < 2) return std::vector<double>(frames, 0.0);
+  if (options.local_window_s <= 0) {
+    const MotionModel model = learn_motion_model(mean_error_by_separation(errors, excluded));
+    return apply_motion_model(errors, model, options.separations, options.max_speed);
+  }
+  if (time_s.size() != frames) throw std::invalid_argument("estimate_motion: one time per frame expected");
+  // A new model every quarter of a window, learned from the window that ends there; the first one serves
+  // until then.
+  const double hop_s = options.local_window_s / 4;
+  std::size_t begin = 0;
+  for (double end_s = options.local_window_s;; end_s += hop_s) {
+    const auto frame_at = [&](double s) {
+      return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
+    };
+    const std::size_t end = frame_at(end_s);
+    const std::size_t first = frame_at(end_s - options.local_window_s);
+    const MotionModel model = learn_motion_model(mean_errors_within(errors, excluded, first, end));
+    if (model.learned()) estimate_speeds(errors, model, begin, end, estimates);
+    if (end >= frames) break;
+    begin = end;
+  }
+  return least_speeds(estimates, frames, options.max_speed);
 }
 
 }  // namespace vo

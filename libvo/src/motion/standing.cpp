@@ -1,5 +1,6 @@
 #include "vo/motion/standing.hpp"
 
+#include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
 #include "vo/motion/alignment_error.hpp"
 
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace vo {
 
@@ -16,9 +18,7 @@ double distant_error(const ImageStack& normalised) {
   std::vector<double> errors(normalised.size() - half);
   parallel_for(errors.size(),
                [&](std::size_t i) { errors[i] = alignment_error(normalised[i], normalised[i + half]); });
-  const auto median = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::ranges::nth_element(errors, median);
-  return *median;
+  return median(std::move(errors));
 }
 
 bool standing_still(double distant_error) {

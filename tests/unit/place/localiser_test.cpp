@@ -101,7 +101,7 @@ TEST(SampleWalk, EveryKthWithoutMotion) {
   const Wall wall(kWallPx, 1);
   const auto known = steady_walk(wall, 1, 0, 100);
   place::WalkSamplingOptions options;
-  options.sampling = {.motion = place::MotionSource::kNone, .every = 7};
+  options.sampling = {.motion = vo::MotionSource::kNone, .every = 7};
   const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
   ASSERT_THAT(sampled.frames, SizeIs(15));  // 0, 7, ..., 98 of 101
   for (std::size_t k = 0; k < 15; ++k) EXPECT_EQ(sampled.frames[k], 7 * k);
@@ -175,7 +175,7 @@ TEST(MakeTraverse, RefusesTheSurveyOfAnotherWalk) {
   const Wall wall(100, 1);
   const auto known = steady_walk(wall, 1, 0, 20);
   place::WalkSamplingOptions options;
-  options.sampling.motion = place::MotionSource::kNone;
+  options.sampling.motion = vo::MotionSource::kNone;
   const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
   auto survey = survey_of(known);
   EXPECT_NO_THROW(place::make_traverse("a", known.walk, sampled, survey));

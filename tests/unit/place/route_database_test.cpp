@@ -50,7 +50,7 @@ place::Route example_route() {
   place::Route route;
   route.thumbnail = {.width = 16, .height = 8};
   route.patch = {.patch_px = 4, .shape = vo::PatchShape::kWindow, .min_deviation = 1.5, .min_contrast = 0.7};
-  route.sampling = {.motion = place::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1};
+  route.sampling = {.motion = vo::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1};
   route.traverses.push_back(example_traverse("by day", 600, 1));    // three chunks, the last one not full
   route.traverses.push_back(example_traverse("by night", 256, 2));  // one full chunk
   route.traverses.push_back(example_traverse("", 0, 3));            // no keyframe
@@ -272,11 +272,6 @@ TEST(RouteDatabase, RefusesTraversesThatDoNotFit) {
   route = example_route();
   route.thumbnail.width = 8;
   refused(route);
-}
-
-TEST(RouteDatabase, MotionSourcesHaveNames) {
-  EXPECT_EQ(place::name_of(place::MotionSource::kNone), "none");
-  EXPECT_EQ(place::name_of(place::MotionSource::kSad), "sad");
 }
 
 }  // namespace

@@ -125,9 +125,9 @@ TEST(LocalGaitAmplitude, IsTheMedianOfTheWindowsThatCoverAFrame) {
     windows[i].amplitude_deg = static_cast<double>(10 - i);
     windows[i].gait = i != 1;
   }
-  // Windows 0, 2, 3 of gait reach over frames 0-3, 1-7, 3-9; of two, the median is the upper.
+  // Windows 0, 2, 3 of gait (10, 8, 7) reach over frames 0-3, 1-7, 3-9; of two, the median is their mean.
   EXPECT_THAT(vo::local_gait_amplitude_deg(windows, 11),
-              testing::ElementsAre(10, 10, 10, 8, 8, 8, 8, 8, 7, 7, 0));
+              testing::ElementsAre(10, 9, 9, 8, 7.5, 7.5, 7.5, 7.5, 7, 7, 0));
   EXPECT_THAT(vo::local_gait_amplitude_deg({}, 2), testing::ElementsAre(0, 0));
 }
 

@@ -81,16 +81,16 @@ TEST(DetectSteps, WorkedExample) {
 
 TEST(DetectSteps, DynamicThresholdByHand) {
   // Differences of pairs 2.0 (from 1, -1), then 1.8 (-1, 0.8): thresholds of a quarter of the median, which
-  // of two is the larger. The extremum of -0.3 at frame 14 is below 0.5, so no step, but above delta_min;
+  // of two is their mean. The extremum of -0.3 at frame 14 is below 0.475, so no step, but above delta_min;
   // after it the threshold is as before.
   const std::vector<double> signal{0,  .5, 1,   .5,  0,   -.5, -1, -.5, 0,  .4, .8,
                                    .4, 0,  -.2, -.3, -.2, 0,   .6, .9,  .3, 0};
   const auto found = vo::detect_steps(signal, seconds(signal.size(), 8),
                                       std::vector<bool>(signal.size(), true), paper_only(0.2));
   EXPECT_THAT(frames_of(found), ElementsAre(2, 6, 10, 18));
-  EXPECT_EQ(found.delta_dyn_deg[5], 0);     // no pair yet
-  EXPECT_EQ(found.delta_dyn_deg[10], 0.5);  // |1 - -1| / 4
-  EXPECT_EQ(found.delta_dyn_deg[20], 0.5);  // median of 2.0 and 1.8, the upper
+  EXPECT_EQ(found.delta_dyn_deg[5], 0);                // no pair yet
+  EXPECT_EQ(found.delta_dyn_deg[10], 0.5);             // |1 - -1| / 4
+  EXPECT_DOUBLE_EQ(found.delta_dyn_deg[20], 1.9 / 4);  // the median of 2.0 and 1.8 is 1.9
 }
 
 TEST(DetectSteps, FindsEveryStepOfAWalkFromAStrollToARun) {

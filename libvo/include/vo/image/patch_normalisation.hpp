@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace vo {
 
@@ -40,8 +41,12 @@ inline constexpr double kStepsPerDeviation = 16;
 void patch_normalise(std::span<const std::uint8_t> image, int width, int height,
                      const PatchNormalisationOptions& options, std::span<float> out);
 
-/// The same for every image of a stack, rounded to bytes (see kStepsPerDeviation). Runs in parallel over the
-/// images.
+/// How much there is to be seen in each image of a stack: the median deviation of the cells of its grid, grey
+/// levels. Throws `std::invalid_argument` if patch_px < 2. O(pixels), in parallel over the images.
+std::vector<double> patch_contrast(const ImageStack& images, int patch_px);
+
+/// `patch_normalise` for every image of a stack, rounded to bytes (see kStepsPerDeviation). Runs in parallel
+/// over the images.
 ImageStack patch_normalise(const ImageStack& images, const PatchNormalisationOptions& options);
 
 }  // namespace vo

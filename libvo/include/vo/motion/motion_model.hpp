@@ -11,7 +11,8 @@ namespace vo {
 /// in both, from (0, 0), joined by a second-order spline. With a single knot nothing was learned.
 struct MotionModel {
   std::vector<double> error;       ///< standard deviations of a patch
-  std::vector<double> separation;  ///< frames of the walk it was learned on, at its mean speed
+  std::vector<double> separation;  ///< frames of the walk it was learned on, at its mean speed; or what
+                                   ///< displacements it was learned from
 
   [[nodiscard]] bool learned() const { return error.size() >= 2; }
 };
@@ -35,18 +36,35 @@ struct MotionModelOptions {
 /// strictly increases; what lies beyond has saturated and tells nothing.
 MotionModel learn_motion_model(std::span<const double> mean_error_by_separation);
 
+/// Learns alignment error against displacement that is known from elsewhere (SSS 3.5: visual odometry)
+/// instead of frame separation. Pairs of frames at all separations, all frames between them known, are put in
+/// order of their displacement and averaged in `kMotionModelBins` bins of equally many; the part that
+/// strictly increases is kept.
+///
+/// `displacement`: of each frame since the one before; `known`: one flag per frame, true where it counts.
+/// With fewer than ten pairs to a bin nothing is learned. O(frames * separations * log).
+MotionModel learn_motion_model(const AlignmentErrors& errors, std::span<const double> displacement,
+                               const std::vector<bool>& known);
+inline constexpr std::size_t kMotionModelBins = 12;
+
 /// The separation that belongs to each error: the spline, clamped to the knots' range at both ends (SSS Eq.
 /// 3). All 0 for a model without knots beyond the first. Non-decreasing in the error: where the quadratic
 /// would overshoot, straight pieces take its place.
 std::vector<double> separation_of(const MotionModel& model, std::span<const float> errors);
 
-/// Displacement of each frame since the one before it, in frames of mean speed; 0 for the first (SSS 3.2).
+/// Displacement of each frame since the one before it, in the model's unit; 0 for the first (SSS 3.2, 3.5).
 ///
 /// For every separation k, F(e_k) / k is an estimate of the speed over k frames (SSS Eq. 3 has k = 1 only); a
 /// frame's displacement is the least, over k, of the mean estimate of the spans that contain it. Motion adds
 /// to the error at every k alike, bounce does so only at small ones, hence the least. Spans whose error lies
-/// on the clamped part of the model only say "at least" and are left out for k > 1. No frame moves faster
-/// than max_speed. O(frames * separations^2).
+/// on the clamped part of the model only say "at least" and are left out for k > 1. No frame moves further
+/// than `max_displacement`. All 0 for a model that learned nothing. Throws `std::invalid_argument` unless
+/// `separations` is in 1 .. the errors' and max_displacement > 0. O(frames * separations^2).
+std::vector<double> apply_motion_model(const AlignmentErrors& errors, const MotionModel& model,
+                                       int separations, double max_displacement);
+
+/// The same, in frames of mean speed, by the model that the walk itself gives, or by one for each local
+/// window.
 ///
 /// `excluded`: frames left out of learning, as from `high_error_windows`, or empty. `time_s`: one per frame;
 /// only used with a local window.

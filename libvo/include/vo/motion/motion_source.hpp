@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+namespace vo {
+
+/// Where the displacement of a walk's frames comes from.
+enum class MotionSource {
+  kNone,            ///< nowhere: every k-th frame (the vanilla of SSS)
+  kSad,             ///< alignment error, through the learned motion model (SSS 3.2)
+  kSteps,           ///< steps, in metres (PVO)
+  kVisualOdometry,  ///< monocular visual odometry alone, as it is: nothing where it is lost, no common unit
+  kHybrid,          ///< all of them, each where it is best (SSS 3.5)
+  kFile,            ///< a trajectory from a file, alignment error where it has gaps
+};
+
+/// "none", "sad", "steps", "vo", "hybrid", "file".
+std::string_view name_of(MotionSource source);
+
+}  // namespace vo

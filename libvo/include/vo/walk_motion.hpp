@@ -1,0 +1,43 @@
+#pragma once
+
+#include "vo/motion/hybrid_motion.hpp"
+#include "vo/motion/motion_source.hpp"
+#include "vo/odometry.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace vo {
+
+/// Settings of `walk_motion`.
+struct WalkMotionOptions {
+  VisualMotionOptions visual;
+  PedestrianMotionOptions pedestrian;
+  HybridMotionOptions hybrid;
+};
+
+/// One displacement for each frame of a walk, whatever it comes from.
+struct WalkMotion {
+  std::vector<FrameDisplacement> frames;
+  bool metric = false;                         ///< metres; otherwise frames at mean walking speed
+  std::optional<VisualMotion> visual;          ///< where alignment error was asked for
+  std::optional<PedestrianMotion> pedestrian;  ///< where steps were asked for
+};
+
+/// Has `read_walk` keep what `walk_motion` needs for a source.
+void keep_for(MotionSource source, WalkOptions& options);
+
+/// The displacement of every frame by one source, or by all of them (`hybrid_motion`).
+///
+/// `kHybrid` takes what the walk was read with, and does without steps where the frame rate is too low to see
+/// any. `kFile` is the same without steps, with the track of a file. `kVisualOdometry` is the track as it is:
+/// nothing where it is lost, each segment in a unit of its own.
+///
+/// Throws `std::invalid_argument` for `kNone`, or a walk that was not read with what the source needs;
+/// `vo::Error` naming a walk that shows no motion to learn from, or no steps where they were asked for.
+WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options = {});
+
+/// The values alone, as the sampler takes them.
+std::vector<double> displacements(const WalkMotion& motion);
+
+}  // namespace vo
