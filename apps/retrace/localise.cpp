@@ -185,11 +185,14 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   const place::SampledWalk sampled =
       place::sample_walk(walk, route, &route.traverses.front(), settings.sampling);
   for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
-  place::Localisation found = place::localise(route, walk, sampled, settings.localiser);
+  place::LocaliserOptions localiser = settings.localiser;
+  localiser.whole_matrices = save_matrices;
+  place::Localisation found = place::localise(route, walk, sampled, localiser);
 
   std::vector<std::vector<std::uint8_t>> pictures;
   for (std::size_t i = 0; i < route.traverses.size(); ++i) {
-    pictures.push_back(matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name));
+    pictures.push_back(matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name, 900,
+                                      found.matrices[i].shrink));
   }
   ordered_json json = summary(route, route_path, walk, settings, sampled, found);
   vo::write_file(folder / "matches.csv", matches_csv(found.matches));

@@ -147,6 +147,9 @@ void add_odometry_options(CLI::App& app, Settings& s) {
 }
 
 void add_search_options(CLI::App& app, Settings& s) {
+  add(app, kSearch, "--max-shift-px", s.localiser.cost.max_shift_px,
+      "pixels of the thumbnail, sideways, within which the query is moved to fit best")
+      ->check(CLI::Range(0, 100));
   add_choice(app, kSearch, "--enhance", s.localiser.enhancement.method,
              {{"standardise", place::Enhancement::kStandardise},
               {"local", place::Enhancement::kLocal},
@@ -260,6 +263,10 @@ void resolve(const CLI::App& app, Settings& settings) {
   if (sampling.spacing_m && sampling.motion != vo::MotionSource::kSteps) {
     throw vo::Error("--spacing-m", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "motion in metres: --motion steps");
+  }
+  if (2 * settings.localiser.cost.max_shift_px >= settings.walk.thumbnail.width) {
+    throw vo::Error("--max-shift-px", fmt::format("is {}", settings.localiser.cost.max_shift_px),
+                    "less than half of --thumbnail-width");
   }
   follow_motion(settings);
   if (!settings.camera.empty()) settings.walk.tracker.camera = vo::read_camera_calibration(settings.camera);

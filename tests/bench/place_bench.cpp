@@ -2,6 +2,7 @@
 #include "sad_limit.hpp"
 
 #include <faiss/utils/extra_distances.h>
+#include <cstring>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -10,6 +11,7 @@
 #include <place/contrast_enhancement.hpp>
 #include <place/cost_matrix.hpp>
 #include <place/sequence_search.hpp>
+#include <place/streamed_search.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 
@@ -22,7 +24,10 @@ constexpr std::size_t kPixels = kWidth * kHeight;
 vo::ImageStack random_descriptors(std::size_t count, std::uint64_t seed) {
   vo::ImageStack stack = vo::make_image_stack(kWidth, kHeight, count);
   vo::Rng rng(seed);
-  for (auto& pixel : stack.pixels) pixel = static_cast<std::uint8_t>(rng.bits());
+  for (std::size_t i = 0; i + sizeof(std::uint64_t) <= stack.pixels.size(); i += sizeof(std::uint64_t)) {
+    const std::uint64_t eight = rng.bits();
+    std::memcpy(&stack.pixels[i], &eight, sizeof eight);
+  }
   return stack;
 }
 
@@ -161,5 +166,24 @@ void enhance(benchmark::State& state, place::Enhancement method) {
 }
 BENCHMARK_CAPTURE(enhance, local, place::Enhancement::kLocal)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(enhance, standardise, place::Enhancement::kStandardise)->Unit(benchmark::kMillisecond);
+
+/// All of it, descriptors to matches, one thread. Arguments: queries, references, sequence length. The large
+/// ones take a minute and more, so they are apart; what counts is the time of a cell.
+void search_streamed(benchmark::State& state) {
+  vo::set_thread_count(1);
+  const Walks walks(state);
+  const place::StreamedSearchOptions options{.search = {.length = static_cast<int>(state.range(2))}};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(place::search_streamed(walks.query, walks.reference, options).data());
+  state.counters["cell_time"] =
+      benchmark::Counter(static_cast<double>(state.range(0)) * static_cast<double>(state.range(1)),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(search_streamed)->Args({3576, 3576, 10})->Args({2000, 3576, 10})->Unit(benchmark::kMillisecond);
+BENCHMARK(search_streamed)
+    ->Name("large_search_streamed")
+    ->Args({2000, 100000, 10})
+    ->Args({2000, 1000000, 10})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

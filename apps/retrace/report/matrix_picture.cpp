@@ -40,7 +40,7 @@ cv::Mat as_grey(const cv::Mat& costs) {
 
 std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
                                          const std::vector<place::Match>& matches,
-                                         const std::string& traverse, int side_px) {
+                                         const std::string& traverse, int side_px, std::size_t cell) {
   const std::size_t longer = std::max({enhanced.queries, enhanced.references, std::size_t{1}});
   const std::size_t shrink =
       (longer + static_cast<std::size_t>(side_px) - 1) / static_cast<std::size_t>(side_px);
@@ -49,7 +49,7 @@ std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
   cv::resize(as_grey(shrunk(enhanced, shrink)), picture, {}, enlarge, enlarge, cv::INTER_NEAREST);
   cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);
 
-  const double scale = static_cast<double>(enlarge) / static_cast<double>(shrink);
+  const double scale = static_cast<double>(enlarge) / static_cast<double>(shrink * cell);
   for (std::size_t q = 0; q < matches.size(); ++q) {
     const place::Match& match = matches[q];
     if (!match.place || match.place->traverse != traverse) continue;
