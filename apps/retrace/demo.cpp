@@ -134,7 +134,7 @@ std::vector<std::uint8_t> overview(const DrawnWalk& day, const DrawnWalk& night,
   const auto matrix = [](const Run& run, const std::string& name) {
     const std::vector<std::uint8_t> png =
         matrix_picture(run.localised.found.matrices.front().enhanced, run.localised.found.matches, kReference,
-                       kOverviewTile_px);
+                       kOverviewTile_px, run.localised.found.matrices.front().shrink);
     return OverviewTile{cv::imdecode(png, cv::IMREAD_COLOR),
                         fmt::format("{}: max-F1 {:.2f}", name, run.evaluated.evaluation.best.f1)};
   };

@@ -1,5 +1,6 @@
 #include "command.hpp"
 #include "report/odometry_report.hpp"
+#include "visual_odometry.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -30,7 +31,8 @@ constexpr std::string_view kProtocol =
 struct EvaluateOdometryOptions {
   CommonOptions common;
   std::string folder;  ///< written by `retrace odometry`
-  std::string truth;   ///< truth.csv, or a way on a map
+  std::string kitti_poses;
+  std::string truth;  ///< truth.csv, or a way on a map
   std::optional<double> map_scale_m_per_px;
   std::string map_image;
   std::optional<std::size_t> true_steps;
@@ -104,6 +106,15 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::is_directory(folder))
     throw vo::Error(options.folder, "is no folder", "one written by `retrace odometry`");
+  if (!options.kitti_poses.empty()) {
+    const ordered_json metrics = kitti_metrics(folder, options.kitti_poses);
+    vo::write_file(folder / "kitti_metrics.json", metrics.dump(2) + "\n");
+    if (options.common.json)
+      fmt::print("{}\n", metrics.dump(2));
+    else
+      print_kitti_metrics(metrics);
+    return;
+  }
   const std::size_t steps = vo::CsvTable::read(folder / "steps.csv").rows();
   const vo::Trajectory trajectory = vo::read_tum(folder / "trajectory.tum");
   const Truth truth = read_truth(options);
@@ -149,9 +160,14 @@ Command add_evaluate_odometry(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("evaluate-odometry", "steps and trajectory of a walk against the truth");
   app->add_option("run", options->folder, "folder written by `retrace odometry`")->required();
-  app->add_option("--truth", options->truth,
-                  "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up")
-      ->required();
+  CLI::Option_group* truth = app->add_option_group("Truth");
+  truth->add_option("--truth", options->truth,
+                    "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up");
+  truth->add_option(
+      "--kitti-poses", options->kitti_poses,
+      "true poses in KITTI's form: its errors of visual odometry alone, which `retrace odometry "
+      "--visual-odometry` wrote");
+  truth->require_option(1);
   CLI::Option* scale =
       app->add_option("--map-scale-m-per-px", options->map_scale_m_per_px, "metres of one pixel of that map")
           ->check(CLI::PositiveNumber);
@@ -173,7 +189,8 @@ Command add_evaluate_odometry(CLI::App& root) {
       "Examples:\n"
       "  retrace evaluate-odometry walk --truth truth.csv\n"
       "  retrace evaluate-odometry walk --truth way.csv --map-scale-m-per-px 0.2 --true-steps 512 "
-      "--segment-m 50");
+      "--segment-m 50\n"
+      "  retrace evaluate-odometry drive --kitti-poses 03.txt");
   return {app, [options] { evaluate_odometry(*options); }};
 }
 

@@ -146,7 +146,9 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   const place::SampledWalk sampled =
       place::sample_walk(walk, route, &route.traverses.front(), settings.sampling);
   for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
-  place::Localisation found = place::localise(route, walk, sampled, settings.localiser);
+  place::LocaliserOptions localiser = settings.localiser;
+  localiser.whole_matrices = save_matrices;
+  place::Localisation found = place::localise(route, walk, sampled, localiser);
 
   ordered_json json = summary(route, route_path, walk, settings, sampled, found);
   vo::write_file(folder / "matches.csv", matches_csv(found.matches));
@@ -158,8 +160,8 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   vo::write_file(folder / "report.html", run_report(folder, data));
   for (std::size_t i = 0; i < found.matrices.size(); ++i) {
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
-    const std::vector<std::uint8_t> png =
-        matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name);
+    const std::vector<std::uint8_t> png = matrix_picture(
+        found.matrices[i].enhanced, found.matches, route.traverses[i].name, 900, found.matrices[i].shrink);
     vo::write_file(folder / fmt::format("cost_matrix{}.png", suffix),
                    {reinterpret_cast<const char*>(png.data()), png.size()});
     if (!save_matrices) continue;

@@ -4,6 +4,7 @@
 #include "report/odometry_report.hpp"
 #include "run_directory.hpp"
 #include "settings.hpp"
+#include "visual_odometry.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -35,6 +36,7 @@ struct OdometryOptions {
   std::string walk;
   std::string output;
   std::optional<double> walk_length_m;
+  bool visual_odometry = false;
 };
 
 std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
@@ -149,12 +151,13 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   const fs::path folder = options.output;
   prepare_run_directory(folder,
                         {"frames.csv", "steps.csv", "activity.csv", "trajectory.tum", "summary.json",
-                         "report.html", "config.toml"},
+                         "report.html", "config.toml", "visual_odometry.csv", "visual_odometry.tum"},
                         options.common.force);
 
   settings.walk.preview_width_px = 0;
   vo::keep_for(settings.sampling.sampling.motion, settings.walk);
   settings.walk.track_features = true;
+  settings.walk.visual_odometry = settings.walk.visual_odometry || options.visual_odometry;
   vo::Walk walk;
   {
     ProgressBar bar;
@@ -178,6 +181,7 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   vo::write_file(folder / "activity.csv", activity_csv(motion));
   vo::write_file(folder / "trajectory.tum",
                  vo::to_tum(walked.trajectory, "pose of each frame, metres and radians since the first"));
+  if (options.visual_odometry) write_visual_odometry(walk, folder);
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
   vo::write_file(folder / "report.html", odometry_report(folder));
@@ -208,6 +212,8 @@ Command add_odometry(CLI::App& root) {
   app->add_option("--walk-length-m", options->walk_length_m,
                   "metres, known length of this walk: measures the step length, for --step-length on others")
       ->check(CLI::PositiveNumber);
+  app->add_flag("--visual-odometry", options->visual_odometry,
+                "write visual_odometry.csv and .tum as well: the camera's way, with what it was lost by");
   options->settings.sampling.sampling.motion = vo::MotionSource::kHybrid;
   add_choice(*app, "Pedestrian odometry", "--motion", options->settings.sampling.sampling.motion,
              {{"hybrid", vo::MotionSource::kHybrid}, {"steps", vo::MotionSource::kSteps}},

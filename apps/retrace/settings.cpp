@@ -76,7 +76,7 @@ void add_sampling_options(CLI::App& app, Settings& s) {
   add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
       ->check(CLI::Range(0.01, 1000.0));
   add(app, kSampling, "--spacing-m", s.sampling.sampling.spacing_m,
-      "metres between keyframes, instead of SSS Eq. 4; with motion in metres (steps)")
+      "metres between keyframes, instead of SSS Eq. 4; with motion in metres (hybrid, steps)")
       ->check(CLI::PositiveNumber);
   add(app, kSampling, "--separations", s.sampling.motion.visual.model.separations,
       "frame separations compared for each frame's motion, 1 is SSS Eq. 3 to the letter")
@@ -147,6 +147,9 @@ void add_odometry_options(CLI::App& app, Settings& s) {
 }
 
 void add_search_options(CLI::App& app, Settings& s) {
+  add(app, kSearch, "--max-shift-px", s.localiser.cost.max_shift_px,
+      "pixels of the thumbnail, sideways, within which the query is moved to fit best")
+      ->check(CLI::Range(0, 100));
   add_choice(app, kSearch, "--enhance", s.localiser.enhancement.method,
              {{"standardise", place::Enhancement::kStandardise},
               {"local", place::Enhancement::kLocal},
@@ -257,9 +260,16 @@ void resolve(const CLI::App& app, Settings& settings) {
     throw vo::Error("--every", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "--motion none --every K");
   }
-  if (sampling.spacing_m && sampling.motion != vo::MotionSource::kSteps) {
+  const bool may_be_metric = sampling.motion == vo::MotionSource::kSteps ||
+                             sampling.motion == vo::MotionSource::kHybrid ||
+                             sampling.motion == vo::MotionSource::kFile;
+  if (sampling.spacing_m && !may_be_metric) {
     throw vo::Error("--spacing-m", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
-                    "motion in metres: --motion steps");
+                    "motion in metres: --motion hybrid or steps");
+  }
+  if (2 * settings.localiser.cost.max_shift_px >= settings.walk.thumbnail.width) {
+    throw vo::Error("--max-shift-px", fmt::format("is {}", settings.localiser.cost.max_shift_px),
+                    "less than half of --thumbnail-width");
   }
   follow_motion(settings);
   if (!settings.camera.empty()) settings.walk.tracker.camera = vo::read_camera_calibration(settings.camera);

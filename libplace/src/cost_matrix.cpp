@@ -2,42 +2,116 @@
 
 #include "kernels/absolute_difference.hpp"
 
+#include <algorithm>
+#include <array>
+#include <numeric>
 #include <stdexcept>
 
 #include <vo/base/parallel.hpp>
 #include <vo/image/patch_normalisation.hpp>
 
 namespace place {
+namespace {
+
+// A band of queries stays in the second-level cache while references stream past.
+constexpr std::size_t kBandImages = 96;
+constexpr std::size_t kBlockReferences = 128;
+
+constexpr std::size_t blocks_of(std::size_t size, std::size_t count) {
+  return (count + size - 1) / size;
+}
+
+/// Columns [first, first + width) of every image, `variants` times with the first column one further on.
+vo::ImageStack columns_of(const vo::ImageStack& images, int first, int width, int variants) {
+  vo::ImageStack cut =
+      vo::make_image_stack(width, images.height, images.size() * static_cast<std::size_t>(variants));
+  vo::parallel_for(cut.size(), [&](std::size_t i) {
+    const std::span<const std::uint8_t> from = images[i / static_cast<std::size_t>(variants)];
+    const int shift = first + static_cast<int>(i % static_cast<std::size_t>(variants));
+    for (int y = 0; y < images.height; ++y) {
+      std::copy_n(from.begin() + y * images.width + shift, width, cut[i].begin() + y * width);
+    }
+  });
+  return cut;
+}
+
+}  // namespace
 
 CostMatrix make_cost_matrix(std::size_t queries, std::size_t references) {
   return {.queries = queries, .references = references, .values = std::vector<float>(queries * references)};
 }
 
-CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references) {
+CostRange range_of(std::span<const float> costs) {
+  // Eight of each at a time, which compilers turn into vectors.
+  constexpr std::size_t kLanes = 8;
+  if (costs.empty()) return {};
+  std::array<double, kLanes> sums{};
+  std::array<float, kLanes> least, most;
+  least.fill(costs.front());
+  most.fill(costs.front());
+  const std::size_t whole = costs.size() - costs.size() % kLanes;
+  const auto take = [&](std::size_t i, std::size_t k) {
+    sums[k] += costs[i + k];
+    least[k] = costs[i + k] < least[k] ? costs[i + k] : least[k];
+    most[k] = costs[i + k] > most[k] ? costs[i + k] : most[k];
+  };
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) take(i, k);
+  }
+  for (std::size_t k = 0; whole + k < costs.size(); ++k) take(whole, k);
+  const double centre = std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(costs.size());
+  return {.centre = centre,
+          .largest = std::max(*std::ranges::max_element(most) - centre,
+                              centre - static_cast<double>(*std::ranges::min_element(least)))};
+}
+
+CostRows::CostRows(const vo::ImageStack& queries, const vo::ImageStack& references,
+                   const CostOptions& options)
+    : queries_(queries.size()), whole_(&queries), whole_references_(&references) {
   if (queries.width != references.width || queries.height != references.height) {
     throw std::invalid_argument("cost_matrix: query and reference descriptors differ in size");
   }
-  CostMatrix matrix = make_cost_matrix(queries.size(), references.size());
-  const std::size_t pixels = queries.image_size();
+  const int shift = options.max_shift_px;
+  if (shift == 0) return;
+  if (shift < 0 || 2 * shift >= queries.width) {
+    throw std::invalid_argument("cost_matrix: 0 <= 2 * max_shift_px < width expected");
+  }
+  variants_ = 2 * static_cast<std::size_t>(shift) + 1;
+  const int width = queries.width - 2 * shift;
+  cropped_ = columns_of(references, shift, width, 1);
+  shifted_ = columns_of(queries, 0, width, 2 * shift + 1);
+}
+
+void CostRows::compute(std::size_t first, std::size_t count, std::span<float> rows) const {
+  const std::size_t pixels = reference_images().image_size();
   const float scale = 1.0F / (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(pixels));
   const kernels::AbsoluteDifferenceKernel kernel = kernels::absolute_difference();
-
-  // Blocks of references stay in the second-level cache while a band of queries passes over them.
-  constexpr std::size_t kBandQueries = 16;
-  constexpr std::size_t kBlockReferences = 256;
-  const std::size_t bands = (matrix.queries + kBandQueries - 1) / kBandQueries;
-  vo::parallel_for(bands, [&](std::size_t band) {
-    std::vector<std::uint32_t> sums(kBlockReferences);
-    const std::size_t end = std::min(matrix.queries, (band + 1) * kBandQueries);
-    for (std::size_t r = 0; r < matrix.references; r += kBlockReferences) {
-      const std::size_t count = std::min(kBlockReferences, matrix.references - r);
-      for (std::size_t q = band * kBandQueries; q < end; ++q) {
-        kernel(queries[q].data(), references[r].data(), count, pixels, sums.data());
-        const std::span<float> row = matrix.row(q).subspan(r, count);
-        for (std::size_t j = 0; j < count; ++j) row[j] = static_cast<float>(sums[j]) * scale;
+  const std::uint8_t* query_bytes = query_images().pixels.data();
+  const std::uint8_t* reference_bytes = reference_images().pixels.data();
+  const std::size_t band = std::max<std::size_t>(1, kBandImages / variants_);
+  const std::size_t columns = blocks_of(kBlockReferences, references());
+  vo::parallel_for(blocks_of(band, count) * columns, [&](std::size_t tile) {
+    const std::size_t q = tile / columns * band, r = tile % columns * kBlockReferences;
+    const std::size_t tall = std::min(band, count - q), wide = std::min(kBlockReferences, references() - r);
+    std::vector<std::uint32_t> sums(tall * variants_ * wide);
+    kernel({query_bytes + (first + q) * variants_ * pixels, tall * variants_},
+           {reference_bytes + r * pixels, wide}, pixels, sums.data(), wide);
+    for (std::size_t i = 0; i < tall; ++i) {
+      std::uint32_t* least = sums.data() + i * variants_ * wide;
+      for (std::size_t v = 1; v < variants_; ++v) {
+        for (std::size_t j = 0; j < wide; ++j) least[j] = std::min(least[j], least[v * wide + j]);
       }
+      float* row = rows.data() + (q + i) * references() + r;
+      for (std::size_t j = 0; j < wide; ++j) row[j] = static_cast<float>(least[j]) * scale;
     }
   });
+}
+
+CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
+                       const CostOptions& options) {
+  const CostRows rows(queries, references, options);
+  CostMatrix matrix = make_cost_matrix(rows.queries(), rows.references());
+  rows.compute(0, matrix.queries, matrix.values);
   return matrix;
 }
 

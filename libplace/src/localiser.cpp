@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
 
 namespace place {
 namespace {
@@ -47,17 +48,39 @@ struct Candidate {
   bool partial = false;
 };
 
+/// Puts rows of a matrix into one of which every cell is the least of `shrink` by `shrink`.
+void shrink_rows(std::size_t first, std::span<const float> rows, std::size_t references, std::size_t shrink,
+                 CostMatrix& shrunk) {
+  vo::parallel_for(shrunk.references, [&](std::size_t column) {
+    const std::size_t begin = column * shrink, end = std::min(references, begin + shrink);
+    for (std::size_t i = 0; i * references < rows.size(); ++i) {
+      const auto least = *std::min_element(&rows[i * references] + begin, &rows[i * references] + end);
+      float& cell = shrunk.row((first + i) / shrink)[column];
+      cell = (first + i) % shrink == 0 ? least : std::min(cell, least);
+    }
+  });
+}
+
 std::vector<Candidate> search_our_way(const vo::ImageStack& query, const vo::ImageStack& reference,
                                       const Route& route, const LocaliserOptions& options, int length,
                                       SearchMatrices& matrices) {
-  matrices.cost = cost_matrix(vo::patch_normalise(query, route.patch),
-                              vo::patch_normalise(reference, route.patch));  // SSS 3.4
-  matrices.enhanced = matrices.cost;
-  enhance_contrast(matrices.enhanced, options.enhancement);
-  SequenceSearchOptions search = options.search;
-  search.length = length;
+  StreamedSearchOptions streamed{
+      .cost = options.cost, .enhancement = options.enhancement, .search = options.search};
+  streamed.search.length = length;
+  const auto parts = [](std::size_t count, std::size_t of) { return (count + of - 1) / of; };
+  const std::size_t references = reference.size();
+  if (!options.whole_matrices)
+    matrices.shrink = std::max<std::size_t>(1, parts(std::max(query.size(), references), kLargestMatrix));
+  for (CostMatrix* matrix : {&matrices.cost, &matrices.enhanced})
+    *matrix = make_cost_matrix(parts(query.size(), matrices.shrink), parts(references, matrices.shrink));
+  const auto keep = [&](const MatrixRows& rows) {
+    shrink_rows(rows.first, rows.cost, references, matrices.shrink, matrices.cost);
+    shrink_rows(rows.first, rows.enhanced, references, matrices.shrink, matrices.enhanced);
+  };
   std::vector<Candidate> candidates;
-  for (const SequenceMatch& found : search_sequences(matrices.enhanced, search)) {
+  for (const SequenceMatch& found :
+       search_streamed(vo::patch_normalise(query, route.patch), vo::patch_normalise(reference, route.patch),
+                       streamed, keep)) {  // SSS 3.4
     candidates.push_back({found.reference, found.score, found.reference && found.terms < length});
   }
   return candidates;
@@ -114,6 +137,9 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
   vo::WalkMotion motion = vo::walk_motion(walk, sampling.motion, motion_options);
   if (sampling.motion == vo::MotionSource::kSteps && motion.pedestrian->detection.steps.empty())
     throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
+  if (sampling.spacing_m && !motion.metric)
+    throw vo::Error(walk.source, "shows no steps, so its motion is not in metres",
+                    "no --spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
   if (motion.visual) {

@@ -95,8 +95,8 @@ CostMatrix difference_matrix(const vo::ImageStack& queries, const vo::ImageStack
                                                                                     : queries.image_size());
   vo::parallel_for(queries.size(), [&](std::size_t q) {
     std::vector<std::uint32_t> sums(references.size());
-    kernels::absolute_difference()(queries[q].data(), references.pixels.data(), references.size(),
-                                   references.image_size(), sums.data());
+    kernels::absolute_difference()({queries[q].data(), 1}, {references.pixels.data(), references.size()},
+                                   references.image_size(), sums.data(), sums.size());
     std::ranges::transform(sums, matrix.row(q).begin(),
                            [&](auto sum) { return static_cast<float>(sum) / divisor; });
   });

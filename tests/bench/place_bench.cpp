@@ -1,10 +1,17 @@
 #include "kernels/absolute_difference.hpp"
+#include "sad_limit.hpp"
+
+#include <faiss/utils/extra_distances.h>
+#include <cstring>
+#include <vector>
 
 #include <benchmark/benchmark.h>
+#include <opencv2/core.hpp>
 
 #include <place/contrast_enhancement.hpp>
 #include <place/cost_matrix.hpp>
 #include <place/sequence_search.hpp>
+#include <place/streamed_search.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 
@@ -12,13 +19,121 @@ namespace {
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 32;
+constexpr std::size_t kPixels = kWidth * kHeight;
 
 vo::ImageStack random_descriptors(std::size_t count, std::uint64_t seed) {
   vo::ImageStack stack = vo::make_image_stack(kWidth, kHeight, count);
   vo::Rng rng(seed);
-  for (auto& pixel : stack.pixels) pixel = static_cast<std::uint8_t>(rng.bits());
+  for (std::size_t i = 0; i + sizeof(std::uint64_t) <= stack.pixels.size(); i += sizeof(std::uint64_t)) {
+    const std::uint64_t eight = rng.bits();
+    std::memcpy(&stack.pixels[i], &eight, sizeof eight);
+  }
   return stack;
 }
+
+/// A benchmark's two walks: its first two arguments are how many keyframes they have.
+struct Walks {
+  explicit Walks(const benchmark::State& state)
+      : query(random_descriptors(static_cast<std::size_t>(state.range(0)), 1)),
+        reference(random_descriptors(static_cast<std::size_t>(state.range(1)), 2)) {}
+
+  /// Bytes of differences, which every cost matrix is measured in.
+  void report(benchmark::State& state) const {
+    state.SetBytesProcessed(state.iterations() *
+                            static_cast<std::int64_t>(query.size() * reference.size() * kPixels));
+  }
+
+  vo::ImageStack query, reference;
+};
+
+// ---- The cost matrix, its limit and its peers. One thread unless it says otherwise. ----
+
+BENCHMARK(bench::sad_limit)->Name("sad_limit")->Unit(benchmark::kMillisecond);
+
+/// Arguments: queries, references, threads. Into memory that is there, as a search streams.
+void cost_matrix(benchmark::State& state) {
+  vo::set_thread_count(static_cast<int>(state.range(2)));
+  const Walks walks(state);
+  const place::CostRows rows(walks.query, walks.reference);
+  place::CostMatrix matrix = place::make_cost_matrix(walks.query.size(), walks.reference.size());
+  for (auto _ : state) {
+    rows.compute(0, matrix.queries, matrix.values);
+    benchmark::DoNotOptimize(matrix.values.data());
+  }
+  walks.report(state);
+}
+BENCHMARK(cost_matrix)
+    ->Args({3576, 3576, 1})
+    ->Args({3576, 3576, 2})
+    ->Args({100, 100000, 1})
+    ->Args({100, 100000, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+
+/// Arguments: queries, references, pixels to either side.
+void cost_matrix_shifted(benchmark::State& state) {
+  vo::set_thread_count(1);
+  const Walks walks(state);
+  const place::CostOptions options{.max_shift_px = static_cast<int>(state.range(2))};
+  for (auto _ : state) benchmark::DoNotOptimize(place::cost_matrix(walks.query, walks.reference, options));
+  walks.report(state);
+}
+BENCHMARK(cost_matrix_shifted)
+    ->Args({1000, 1000, 0})
+    ->Args({1000, 1000, 1})
+    ->Args({1000, 1000, 2})
+    ->Args({1000, 1000, 4})
+    ->Unit(benchmark::kMillisecond);
+
+/// The plain loop, which the others must equal.
+void cost_matrix_scalar(benchmark::State& state) {
+  const Walks walks(state);
+  std::vector<std::uint32_t> sums(walks.query.size() * walks.reference.size());
+  for (auto _ : state) {
+    place::kernels::absolute_difference_scalar({walks.query.pixels.data(), walks.query.size()},
+                                               {walks.reference.pixels.data(), walks.reference.size()},
+                                               kPixels, sums.data(), walks.reference.size());
+    benchmark::DoNotOptimize(sums.data());
+  }
+  walks.report(state);
+}
+BENCHMARK(cost_matrix_scalar)->Args({500, 500})->Unit(benchmark::kMillisecond);
+
+void cost_matrix_opencv(benchmark::State& state) {
+  cv::setNumThreads(1);
+  Walks walks(state);
+  const auto as_mat = [](vo::ImageStack& stack) {
+    return cv::Mat(static_cast<int>(stack.size()), static_cast<int>(kPixels), CV_8U, stack.pixels.data());
+  };
+  const cv::Mat query = as_mat(walks.query), reference = as_mat(walks.reference);
+  cv::Mat sums;
+  for (auto _ : state) {
+    cv::batchDistance(query, reference, sums, CV_32S, cv::noArray(), cv::NORM_L1);
+    benchmark::DoNotOptimize(sums.data);
+  }
+  walks.report(state);
+}
+BENCHMARK(cost_matrix_opencv)->Args({500, 500})->Unit(benchmark::kMillisecond);
+
+/// Flat L1 on floats: FAISS has none on bytes. It spreads over OpenMP's threads; their processor time counts.
+void cost_matrix_faiss(benchmark::State& state) {
+  const Walks walks(state);
+  const auto as_floats = [](const vo::ImageStack& stack) {
+    return std::vector<float>(stack.pixels.begin(), stack.pixels.end());
+  };
+  const std::vector<float> query = as_floats(walks.query), reference = as_floats(walks.reference);
+  std::vector<float> sums(walks.query.size() * walks.reference.size());
+  for (auto _ : state) {
+    faiss::pairwise_extra_distances(kPixels, static_cast<std::int64_t>(walks.query.size()), query.data(),
+                                    static_cast<std::int64_t>(walks.reference.size()), reference.data(),
+                                    faiss::METRIC_L1, 0, sums.data());
+    benchmark::DoNotOptimize(sums.data());
+  }
+  walks.report(state);
+}
+BENCHMARK(cost_matrix_faiss)->Args({500, 500})->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+// ---- Enhancement and search ----
 
 place::CostMatrix random_costs(std::size_t size) {
   place::CostMatrix costs = place::make_cost_matrix(size, size);
@@ -27,54 +142,21 @@ place::CostMatrix random_costs(std::size_t size) {
   return costs;
 }
 
-void report_bytes(benchmark::State& state, std::size_t size) {
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(size * size * kWidth * kHeight));
-}
-
-/// size x size thumbnails; arguments: size, threads.
-void cost_matrix(benchmark::State& state) {
-  const auto size = static_cast<std::size_t>(state.range(0));
-  vo::set_thread_count(static_cast<int>(state.range(1)));
-  const vo::ImageStack query = random_descriptors(size, 1), reference = random_descriptors(size, 2);
-  for (auto _ : state) benchmark::DoNotOptimize(place::cost_matrix(query, reference));
-  report_bytes(state, size);
-}
-BENCHMARK(cost_matrix)->Args({1800, 1})->Args({1800, 2})->Unit(benchmark::kMillisecond)->UseRealTime();
-
-/// The same sums by the plain loop, which the others must equal.
-void cost_matrix_scalar_twin(benchmark::State& state) {
-  const auto size = static_cast<std::size_t>(state.range(0));
-  const vo::ImageStack query = random_descriptors(size, 1), reference = random_descriptors(size, 2);
-  std::vector<std::uint32_t> sums(size);
-  for (auto _ : state) {
-    for (std::size_t q = 0; q < size; ++q) {
-      place::kernels::absolute_difference_scalar(query[q].data(), reference.pixels.data(), size,
-                                                 kWidth * kHeight, sums.data());
-      benchmark::DoNotOptimize(sums.data());
-    }
-  }
-  report_bytes(state, size);
-}
-BENCHMARK(cost_matrix_scalar_twin)->Arg(1800)->Unit(benchmark::kMillisecond)->UseRealTime();
-
-/// Arguments: size, sequence length, threads; 21 slopes over +-0.5 rad.
+/// Arguments: size, sequence length, threads; the default range.
 void sequence_search(benchmark::State& state) {
   const place::CostMatrix costs = random_costs(static_cast<std::size_t>(state.range(0)));
   vo::set_thread_count(static_cast<int>(state.range(2)));
-  const place::SequenceSearchOptions options{.length = static_cast<int>(state.range(1)),
-                                             .search_range_rad = 0.5};
+  const place::SequenceSearchOptions options{.length = static_cast<int>(state.range(1))};
   for (auto _ : state) benchmark::DoNotOptimize(place::search_sequences(costs, options));
   state.counters["lines"] = static_cast<double>(place::search_lines(options).size());
 }
 BENCHMARK(sequence_search)
-    ->Args({1800, 10, 2})
-    ->Args({1800, 20, 1})
-    ->Args({1800, 20, 2})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->ArgsProduct({{3576}, {10, 20, 50}, {1, 2}})
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
 
 void enhance(benchmark::State& state, place::Enhancement method) {
-  vo::set_thread_count(2);
+  vo::set_thread_count(1);
   const place::CostMatrix costs = random_costs(1800);
   for (auto _ : state) {
     place::CostMatrix enhanced = costs;
@@ -82,9 +164,26 @@ void enhance(benchmark::State& state, place::Enhancement method) {
     benchmark::DoNotOptimize(enhanced.values.data());
   }
 }
-BENCHMARK_CAPTURE(enhance, local, place::Enhancement::kLocal)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(enhance, standardise, place::Enhancement::kStandardise)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+BENCHMARK_CAPTURE(enhance, local, place::Enhancement::kLocal)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(enhance, standardise, place::Enhancement::kStandardise)->Unit(benchmark::kMillisecond);
+
+/// All of it, descriptors to matches, one thread. Arguments: queries, references, sequence length. The large
+/// ones take a minute and more, so they are apart; what counts is the time of a cell.
+void search_streamed(benchmark::State& state) {
+  vo::set_thread_count(1);
+  const Walks walks(state);
+  const place::StreamedSearchOptions options{.search = {.length = static_cast<int>(state.range(2))}};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(place::search_streamed(walks.query, walks.reference, options).data());
+  state.counters["cell_time"] =
+      benchmark::Counter(static_cast<double>(state.range(0)) * static_cast<double>(state.range(1)),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(search_streamed)->Args({3576, 3576, 10})->Args({2000, 3576, 10})->Unit(benchmark::kMillisecond);
+BENCHMARK(search_streamed)
+    ->Name("large_search_streamed")
+    ->Args({2000, 100000, 10})
+    ->Args({2000, 1000000, 10})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

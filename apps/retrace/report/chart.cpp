@@ -37,17 +37,11 @@ Series styled(Series series, std::size_t index) {
 namespace {
 
 ordered_json to_json(const Series& series) {
-  ordered_json json{{"name", series.name},
-                    {"x", rounded(series.x)},
-                    {"y", rounded(series.y)},
-                    {"colour", series.colour},
-                    {"line", series.line},
-                    {"mark", series.mark},
-                    {"hollow", series.hollow},
-                    {"width", series.width_px},
-                    {"dash", series.dash},
-                    {"size", series.size_px},
-                    {"label_at_end", series.label_at_end}};
+  ordered_json json{
+      {"name", series.name},     {"x", rounded(series.x)},      {"y", rounded(series.y)},
+      {"colour", series.colour}, {"line", series.line},         {"mark", series.mark},
+      {"hollow", series.hollow}, {"width", series.width_px},    {"dash", series.dash},
+      {"size", series.size_px},  {"bar_ends", series.bar_ends}, {"label_at_end", series.label_at_end}};
   if (!series.notes.empty()) json["notes"] = series.notes;
   return json;
 }
@@ -69,6 +63,7 @@ ordered_json to_json(const Chart& chart) {
     for (const auto& [from, to] : band.spans) spans.push_back({rounded(from), rounded(to)});
     json["bands"].push_back({{"name", band.name}, {"colour", band.colour}, {"spans", std::move(spans)}});
   }
+  if (!chart.y_names.empty()) json["y_names"] = chart.y_names;
   if (chart.x_range) json["x_range"] = *chart.x_range;
   if (chart.y_range) json["y_range"] = *chart.y_range;
   if (const auto& b = chart.backdrop) {

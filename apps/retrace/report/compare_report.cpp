@@ -4,6 +4,8 @@
 #include "report/pr_chart.hpp"
 #include "report/run_report.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace retrace {
@@ -26,22 +28,27 @@ Chart intervals(const Comparison& comparison) {
   const auto count = static_cast<double>(comparison.runs.size());
   Chart chart{.title = "max-F1 of each run with its confidence interval",
               .x_title = "max-F1",
-              .y_title = "run",
+              .y_title = "",
               .y_range = std::array{0.0, count + 1},
               .size = comparison.runs.size() < 5 ? "wide" : ""};
+  double low = 1;
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const ComparedRun& run = comparison.runs[i];
     const double f1 = run.evaluation.best.f1;
     const place::Interval interval = run.bootstrap.max_f1.value_or(place::Interval{f1, f1});
     const double line = count - static_cast<double>(i);
+    low = std::min(low, interval.low);
+    chart.y_names.insert(chart.y_names.begin(), run.name);
     chart.series.push_back(styled({.name = run.name,
                                    .x = {interval.low, f1, interval.high},
                                    .y = {line, line, line},
                                    .width_px = 3,
                                    .size_px = 5,
+                                   .bar_ends = true,
                                    .notes = {"lower end", "of the whole run", "upper end"}},
                                   i));
   }
+  chart.x_range = {std::max(0.0, low - 0.02), 1.01};
   return chart;
 }
 

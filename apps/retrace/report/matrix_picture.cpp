@@ -51,7 +51,7 @@ std::vector<std::uint8_t> as_png(const cv::Mat& picture) {
 
 std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
                                          const std::vector<place::Match>& matches,
-                                         const std::string& traverse, int side_px) {
+                                         const std::string& traverse, int side_px, std::size_t cell) {
   const std::size_t longer = std::max({enhanced.queries, enhanced.references, std::size_t{1}});
   const std::size_t shrink = shrink_to(enhanced, side_px);
   const int enlarge = std::max(1, side_px / static_cast<int>((longer + shrink - 1) / shrink));
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
   cv::resize(as_grey(shrunk(enhanced, shrink)), picture, {}, enlarge, enlarge, cv::INTER_NEAREST);
   cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);
 
-  const double scale = static_cast<double>(enlarge) / static_cast<double>(shrink);
+  const double scale = static_cast<double>(enlarge) / static_cast<double>(shrink * cell);
   for (std::size_t q = 0; q < matches.size(); ++q) {
     const place::Match& match = matches[q];
     if (!match.place || match.place->traverse != traverse) continue;

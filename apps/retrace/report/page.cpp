@@ -67,7 +67,7 @@ std::string without_comment_marks(std::string_view text) {
 }
 
 bool is_number(std::string_view cell) {
-  return !cell.empty() && cell.find_first_not_of("0123456789.-+e %") == std::string_view::npos;
+  return !cell.empty() && cell.find_first_not_of("0123456789.-+e %[],") == std::string_view::npos;
 }
 
 }  // namespace

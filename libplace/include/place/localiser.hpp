@@ -5,7 +5,7 @@
 #include "place/openseqslam.hpp"
 #include "place/relative_scale.hpp"
 #include "place/route_database.hpp"
-#include "place/sequence_search.hpp"
+#include "place/streamed_search.hpp"
 
 #include <optional>
 #include <string>
@@ -59,6 +59,7 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
 
 /// Settings of `localise`.
 struct LocaliserOptions {
+  CostOptions cost;
   ContrastEnhancementOptions enhancement;
   SequenceSearchOptions search;
   std::optional<double>
@@ -66,13 +67,16 @@ struct LocaliserOptions {
   double acceptance_threshold =
       0.7;  ///< least score of an accepted match, in deviations of the enhanced cost
   std::optional<openseqslam::Options> openseqslam;  ///< run the original's search instead of ours
+  bool whole_matrices = false;  ///< keep every cell of `Localisation::matrices`, however many there are
 };
 
 /// The matrices of a search against one traverse, for people to look at.
 struct SearchMatrices {
   CostMatrix cost;
   CostMatrix enhanced;
+  std::size_t shrink = 1;  ///< a cell is the least of so many by so many, where the matrix is a large one
 };
+inline constexpr std::size_t kLargestMatrix = 1024;  ///< cells along a side, above which it is shrunk
 
 /// Where a walk was found on a route.
 struct Localisation {

@@ -2,24 +2,34 @@
 
 namespace place::kernels {
 
-void absolute_difference_scalar(const std::uint8_t* query, const std::uint8_t* references, std::size_t count,
-                                std::size_t size, std::uint32_t* sums) {
-  for (std::size_t j = 0; j < count; ++j) {
-    const std::uint8_t* reference = references + j * size;
-    std::uint32_t sum = 0;
-    for (std::size_t k = 0; k < size; ++k) {
-      sum += query[k] > reference[k] ? query[k] - reference[k] : reference[k] - query[k];
+void absolute_difference_scalar(ByteImages queries, ByteImages references, std::size_t size,
+                                std::uint32_t* sums, std::size_t stride) {
+  for (std::size_t i = 0; i < queries.count; ++i) {
+    const std::uint8_t* query = queries.bytes + i * size;
+    for (std::size_t j = 0; j < references.count; ++j) {
+      const std::uint8_t* reference = references.bytes + j * size;
+      std::uint32_t sum = 0;
+      for (std::size_t k = 0; k < size; ++k) {
+        sum += query[k] > reference[k] ? query[k] - reference[k] : reference[k] - query[k];
+      }
+      sums[i * stride + j] = sum;
     }
-    sums[j] = sum;
   }
 }
 
 AbsoluteDifferenceKernel absolute_difference() {
 #if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2");
-  if (has_avx2) return absolute_difference_avx2;
-#endif
+  static const AbsoluteDifferenceKernel fastest = [] {
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw"))
+      return absolute_difference_avx512;
+    return __builtin_cpu_supports("avx2") ? absolute_difference_avx2 : absolute_difference_scalar;
+  }();
+  return fastest;
+#elif defined(__aarch64__)
+  return absolute_difference_neon;
+#else
   return absolute_difference_scalar;
+#endif
 }
 
 }  // namespace place::kernels

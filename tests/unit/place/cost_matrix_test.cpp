@@ -1,8 +1,12 @@
 #include "kernels/absolute_difference.hpp"
 #include "support/random_images.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <limits>
+#include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -29,24 +33,30 @@ std::vector<place::kernels::AbsoluteDifferenceKernel> kernels() {
 }
 
 TEST(AbsoluteDifferenceKernels, EqualTheSumForAnySizeAndCount) {
-  for (const std::size_t size : {1, 3, 31, 32, 33, 63, 64, 65, 100, 2048}) {
-    for (std::size_t count = 0; count <= 9; ++count) {
-      SCOPED_TRACE(testing::Message() << size << " bytes, " << count << " references");
-      const auto references = random_images(static_cast<int>(size), 1, count, 1);
-      const auto query = random_images(static_cast<int>(size), 1, 1, 2);
-      std::vector<std::uint32_t> expected(count, 0);
-      for (std::size_t j = 0; j < count; ++j) {
-        for (std::size_t k = 0; k < size; ++k)
-          expected[j] += static_cast<std::uint32_t>(std::abs(query.pixels[k] - references[j][k]));
-      }
-      for (const auto kernel : kernels()) {
-        // One place more than the kernel may write to.
+  // Sizes around those of one and two registers of any kind; counts around those of a tile's sides.
+  for (const std::size_t size : {1, 3, 15, 17, 31, 32, 33, 63, 64, 65, 100, 127, 128, 200, 2048}) {
+    const auto all_queries = random_images(static_cast<int>(size), 1, 7, 1);
+    const auto all_references = random_images(static_cast<int>(size), 1, 14, 2);
+    for (std::size_t queries = 0; queries <= 7; ++queries) {
+      for (std::size_t references = 0; references <= 14; ++references) {
+        SCOPED_TRACE(testing::Message() << size << " bytes, " << queries << " x " << references);
+        // Two places more in each row than the kernel may write to.
         constexpr std::uint32_t kUntouched = 12345;
-        std::vector<std::uint32_t> sums(count + 1, kUntouched);
-        kernel(query.pixels.data(), references.pixels.data(), count, size, sums.data());
-        EXPECT_EQ(sums.back(), kUntouched);
-        sums.pop_back();
-        EXPECT_EQ(sums, expected);
+        const std::size_t stride = references + 2;
+        std::vector<std::uint32_t> expected(queries * stride, kUntouched);
+        for (std::size_t i = 0; i < queries; ++i) {
+          for (std::size_t j = 0; j < references; ++j) {
+            int sum = 0;
+            for (std::size_t k = 0; k < size; ++k) sum += std::abs(all_queries[i][k] - all_references[j][k]);
+            expected[i * stride + j] = static_cast<std::uint32_t>(sum);
+          }
+        }
+        for (const auto kernel : kernels()) {
+          std::vector<std::uint32_t> sums(queries * stride, kUntouched);
+          kernel({all_queries.pixels.data(), queries}, {all_references.pixels.data(), references}, size,
+                 sums.data(), stride);
+          ASSERT_EQ(sums, expected);
+        }
       }
     }
   }
@@ -55,13 +65,13 @@ TEST(AbsoluteDifferenceKernels, EqualTheSumForAnySizeAndCount) {
 TEST(AbsoluteDifferenceKernels, DoNotOverflow) {
   // The largest difference there is, over an image much larger than a thumbnail: 255 * 100003.
   constexpr std::size_t kSize = 100003;
-  const std::vector<std::uint8_t> query(kSize, 255), references(5 * kSize, 0);
+  const std::vector<std::uint8_t> bright(kSize, 255), dark(7 * kSize, 0);
   for (const auto kernel : kernels()) {
-    std::vector<std::uint32_t> sums(5);
-    kernel(query.data(), references.data(), 5, kSize, sums.data());
+    std::vector<std::uint32_t> sums(7);
+    kernel({bright.data(), 1}, {dark.data(), 7}, kSize, sums.data(), 7);
     EXPECT_THAT(sums, Each(25500765U));
-    kernel(references.data(), query.data(), 1, kSize, sums.data());  // and the other way round
-    EXPECT_EQ(sums[0], 25500765U);
+    kernel({dark.data(), 7}, {bright.data(), 1}, kSize, sums.data(), 1);  // and the other way round
+    EXPECT_THAT(sums, Each(25500765U));
   }
 }
 
@@ -88,6 +98,71 @@ TEST(CostMatrix, EqualsTheDefinition) {
       // One float rounding of the product and one of the constant: equal to four units in the last place.
       ASSERT_FLOAT_EQ(matrix.at(q, r), static_cast<float>(sum) / (16.0F * 15.0F)) << q << ", " << r;
       ASSERT_EQ(matrix.row(q)[r], matrix.at(q, r));
+    }
+  }
+}
+
+/// The least over all shifts of the mean difference to the middle of the reference, by the definition.
+float shifted_cost(std::span<const std::uint8_t> query, std::span<const std::uint8_t> reference, int width,
+                   int height, int most) {
+  int least = std::numeric_limits<int>::max();
+  for (int shift = -most; shift <= most; ++shift) {
+    int sum = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = most; x < width - most; ++x) {
+        sum += std::abs(query[static_cast<std::size_t>(y * width + x + shift)] -
+                        reference[static_cast<std::size_t>(y * width + x)]);
+      }
+    }
+    least = std::min(least, sum);
+  }
+  return static_cast<float>(least) / (16.0F * static_cast<float>((width - 2 * most) * height));
+}
+
+TEST(CostMatrix, TakesTheLeastOverShifts) {
+  // More queries than a band holds with their variants, more references than a block.
+  const auto queries = random_images(9, 4, 40, 4), references = random_images(9, 4, 140, 5);
+  for (const int most : {0, 1, 3, 4}) {
+    const auto matrix = place::cost_matrix(queries, references, {.max_shift_px = most});
+    for (std::size_t q = 0; q < 40; ++q) {
+      for (std::size_t r = 0; r < 140; ++r)
+        ASSERT_FLOAT_EQ(matrix.at(q, r), shifted_cost(queries[q], references[r], 9, 4, most)) << most;
+    }
+  }
+}
+
+TEST(CostMatrix, OfAViewMovedSidewaysIsZeroWithinTheShift) {
+  // A row of 12 pixels seen from 2 pixels further right.
+  const auto wide = random_images(14, 1, 1, 6);
+  const vo::ImageStack here{12, 1, {wide.pixels.begin(), wide.pixels.end() - 2}};
+  const vo::ImageStack right{12, 1, {wide.pixels.begin() + 2, wide.pixels.end()}};
+  for (const auto& [a, b] : {std::pair{here, right}, {right, here}}) {
+    EXPECT_GT(place::cost_matrix(a, b).values[0], 0);
+    EXPECT_GT(place::cost_matrix(a, b, {.max_shift_px = 1}).values[0], 0);
+    EXPECT_EQ(place::cost_matrix(a, b, {.max_shift_px = 2}).values[0], 0);
+    EXPECT_EQ(place::cost_matrix(a, b, {.max_shift_px = 3}).values[0], 0);
+  }
+}
+
+TEST(CostMatrix, RefusesAShiftThatLeavesNoColumn) {
+  const auto images = random_images(6, 2, 1, 1);
+  EXPECT_NO_THROW(place::cost_matrix(images, images, {.max_shift_px = 2}));
+  EXPECT_THROW(place::cost_matrix(images, images, {.max_shift_px = 3}), std::invalid_argument);
+  EXPECT_THROW(place::cost_matrix(images, images, {.max_shift_px = -1}), std::invalid_argument);
+}
+
+TEST(CostRows, AreThoseOfTheMatrix) {
+  const auto queries = random_images(8, 4, 23, 1), references = random_images(8, 4, 300, 2);
+  for (const int most : {0, 2}) {
+    const auto matrix = place::cost_matrix(queries, references, {.max_shift_px = most});
+    const place::CostRows rows(queries, references, {.max_shift_px = most});
+    for (std::size_t first = 0; first < 23; first += 7) {
+      const std::size_t count = std::min<std::size_t>(7, 23 - first);
+      std::vector<float> some(count * 300);
+      rows.compute(first, count, some);
+      for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_TRUE(std::ranges::equal(std::span(some).subspan(i * 300, 300), matrix.row(first + i)));
+      }
     }
   }
 }

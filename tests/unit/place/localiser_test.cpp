@@ -224,6 +224,43 @@ TEST_F(LocaliserTest, FindsAWalkAtAnotherSpeed) {
   }
 }
 
+TEST_F(LocaliserTest, ShrinksLargeMatricesUnlessTheyAreAskedFor) {
+  // A traverse of noise, three times as long as a matrix is kept whole.
+  const std::size_t references = 3 * place::kLargestMatrix - 7;
+  place::Traverse noise{.name = "noise", .keyframes = std::vector<place::Keyframe>(references)};
+  noise.thumbnails = vo::make_image_stack(route_.thumbnail.width, route_.thumbnail.height, references);
+  vo::Rng rng(1);
+  for (auto& pixel : noise.thumbnails.pixels) pixel = static_cast<std::uint8_t>(rng.index(256));
+  route_.traverses = {noise};
+  vo::Walk walk;
+  place::SampledWalk sampled;
+  for (std::size_t q = 0; q < 40; ++q) {
+    walk.time_s.push_back(static_cast<double>(q));
+    sampled.frames.push_back(q);
+  }
+  sampled.thumbnails = vo::select(noise.thumbnails, sampled.frames);
+  const auto small = place::localise(route_, walk, sampled, options_).matrices[0];
+  options_.whole_matrices = true;
+  const auto whole = place::localise(route_, walk, sampled, options_).matrices[0];
+  EXPECT_EQ(whole.shrink, 1U);
+  EXPECT_EQ(small.shrink, 3U);
+  for (const auto& [shrunk, matrix] :
+       {std::pair{&small.cost, &whole.cost}, {&small.enhanced, &whole.enhanced}}) {
+    ASSERT_EQ(matrix->queries, 40U);
+    ASSERT_EQ(matrix->references, references);
+    ASSERT_EQ(shrunk->queries, 14U);
+    ASSERT_EQ(shrunk->references, (references + 2) / 3);
+    std::vector<float> least(shrunk->values.size(), std::numeric_limits<float>::infinity());
+    for (std::size_t q = 0; q < 40; ++q) {
+      for (std::size_t r = 0; r < references; ++r) {
+        float& cell = least[q / 3 * shrunk->references + r / 3];
+        cell = std::min(cell, matrix->at(q, r));
+      }
+    }
+    EXPECT_EQ(shrunk->values, least);
+  }
+}
+
 TEST_F(LocaliserTest, TheThresholdDecidesWhatIsAccepted) {
   const auto query = steady_walk(wall_, 0.5, 100, 300);
   const auto sampled = sample_query(query, route_);

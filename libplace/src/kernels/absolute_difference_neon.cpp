@@ -1,0 +1,37 @@
+#include "kernels/absolute_difference_tiles.hpp"
+
+#if defined(__aarch64__)
+
+#include <arm_neon.h>
+
+namespace place::kernels {
+namespace {
+
+struct Neon {
+  using Bytes = uint8x16_t;
+  using Sums = uint32x4_t;
+  static constexpr std::size_t kBytes = 16;
+  static constexpr std::size_t kTileQueries = 4, kTileReferences = 6;  // 30 of 32 registers
+
+  static Bytes load(const std::uint8_t* from) { return vld1q_u8(from); }
+  static Bytes load_last(const std::uint8_t* end, std::size_t count) {
+    static constexpr std::uint8_t kPlaces[kBytes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const auto first = static_cast<std::uint8_t>(kBytes - count);
+    return vandq_u8(load(end - kBytes), vcgeq_u8(vld1q_u8(kPlaces), vdupq_n_u8(first)));
+  }
+  static void keep_in_register(Bytes& bytes) { asm("" : "+w"(bytes)); }
+  static Sums zero() { return vdupq_n_u32(0); }
+  static Sums add(Sums sums, Bytes a, Bytes b) { return vpadalq_u16(sums, vpaddlq_u8(vabdq_u8(a, b))); }
+  static std::uint32_t total(Sums sums) { return vaddvq_u32(sums); }
+};
+
+}  // namespace
+
+void absolute_difference_neon(ByteImages queries, ByteImages references, std::size_t size,
+                              std::uint32_t* sums, std::size_t stride) {
+  sum_all<Neon>(queries, references, size, sums, stride);
+}
+
+}  // namespace place::kernels
+
+#endif

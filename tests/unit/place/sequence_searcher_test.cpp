@@ -1,0 +1,265 @@
+#include "kernels/line_sums.hpp"
+#include "line_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/sequence_searcher.hpp>
+#include <vo/base/parallel.hpp>
+#include <vo/base/rng.hpp>
+
+namespace {
+
+using place::SequenceMatch;
+using place::SequenceSearchOptions;
+
+/// Costs in [-2, 2] in multiples of 1/64, which no rounding changes.
+place::CostMatrix random_costs(std::size_t queries, std::size_t references, std::uint64_t seed) {
+  vo::Rng rng(seed);
+  place::CostMatrix costs = place::make_cost_matrix(queries, references);
+  for (float& value : costs.values)
+    value = static_cast<float>(static_cast<double>(rng.index(257)) - 128) / 64;
+  return costs;
+}
+
+/// The straightforward loop: every term of every line, in double.
+std::vector<SequenceMatch> search_plainly(const place::CostMatrix& costs,
+                                          const SequenceSearchOptions& options) {
+  const auto lines = place::search_lines(options);
+  const auto queries = static_cast<int>(costs.queries), references = static_cast<int>(costs.references);
+  std::vector<SequenceMatch> matches(costs.queries);
+  for (int q = 0; q < queries; ++q) {
+    std::vector<double> least(costs.references, std::numeric_limits<double>::infinity());
+    SequenceMatch& match = matches[static_cast<std::size_t>(q)];
+    double best = std::numeric_limits<double>::infinity();
+    for (int r = 0; r < references; ++r) {
+      for (const auto& line : lines) {
+        double sum = 0;
+        int terms = 0;
+        for (int k = 0; k < options.length; ++k) {
+          const int row = q + k - options.length / 2, column = r + line.offsets[static_cast<std::size_t>(k)];
+          if (row < 0 || row >= queries || column < 0 || column >= references) continue;
+          sum += costs.at(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
+          ++terms;
+        }
+        if (terms == 0 || terms < options.min_fraction * options.length) continue;
+        const double cost = sum / std::sqrt(static_cast<double>(terms) * options.length);
+        least[static_cast<std::size_t>(r)] = std::min(least[static_cast<std::size_t>(r)], cost);
+        if (cost < best) {
+          best = cost;
+          match = {static_cast<std::size_t>(r), line.slope, static_cast<float>(cost), 0, terms};
+        }
+      }
+    }
+    if (!match.reference) continue;
+    double second = std::numeric_limits<double>::infinity();
+    for (int r = 0; r < references; ++r) {
+      if (std::abs(r - static_cast<int>(*match.reference)) > options.uniqueness_window)
+        second = std::min(second, least[static_cast<std::size_t>(r)]);
+    }
+    match.score = static_cast<float>((std::isfinite(second) ? second : 0) - best);
+  }
+  return matches;
+}
+
+std::vector<SequenceMatch> search_in_pieces(const place::CostMatrix& costs,
+                                            const SequenceSearchOptions& options, std::size_t piece) {
+  place::SequenceSearcher searcher(costs.queries, costs.references, {.centre = 0, .largest = 2}, options);
+  for (std::size_t q = 0; q < costs.queries; q += piece) {
+    const std::size_t count = std::min(piece, costs.queries - q);
+    searcher.push(std::span(costs.values).subspan(q * costs.references, count * costs.references));
+  }
+  return searcher.finish();
+}
+
+void expect_same(const std::vector<SequenceMatch>& found, const std::vector<SequenceMatch>& expected,
+                 double tolerance) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t q = 0; q < found.size(); ++q) {
+    SCOPED_TRACE(q);
+    EXPECT_EQ(found[q].reference, expected[q].reference);
+    EXPECT_EQ(found[q].slope, expected[q].slope);
+    EXPECT_EQ(found[q].terms, expected[q].terms);
+    EXPECT_NEAR(found[q].cost, expected[q].cost, tolerance);
+    EXPECT_NEAR(found[q].score, expected[q].score, tolerance);
+  }
+}
+
+TEST(SequenceSearcher, EqualsTheStraightforwardLoop) {
+  // References over several stretches and chunks, and few; slopes that need several steps; more rows than are
+  // taken in at a time; sequences longer than a walk.
+  struct Case {
+    std::size_t queries, references;
+    SequenceSearchOptions options;
+  };
+  const std::vector<Case> cases{
+      {40, 1300, {.length = 10}},
+      {150, 70, {.length = 20, .search_range_rad = 0.5}},
+      {90, 200, {.length = 50, .search_range_rad = 0.3, .slopes = 9, .uniqueness_window = 40}},
+      {30, 610, {.length = 7, .search_range_rad = 0.75, .slopes = 11, .min_fraction = 1}},
+      {12, 40, {.length = 60, .search_range_rad = 0.2, .slopes = 5, .min_fraction = 0.05}},
+      {70, 33, {.length = 1}},
+      {65, 64, {.length = 9, .v_min = 0.3, .v_max = 6, .uniqueness_window = 0}},
+      {1, 100, {.length = 3, .min_fraction = 0.1}},
+  };
+  // Sums are exact; a cost and a score are rounded to floats of up to 4.
+  constexpr double kRounding = 2e-6;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    SCOPED_TRACE(i);
+    const auto& [queries, references, options] = cases[i];
+    const auto costs = random_costs(queries, references, i);
+    expect_same(search_in_pieces(costs, options, queries), search_plainly(costs, options), kRounding);
+  }
+}
+
+TEST(SequenceSearcher, DoesNotCareHowRowsArrive) {
+  const auto costs = random_costs(200, 330, 1);
+  const SequenceSearchOptions options{.length = 16, .search_range_rad = 0.4};
+  const auto whole = search_in_pieces(costs, options, 200);
+  for (const std::size_t piece : {1, 7, 64, 65})
+    expect_same(search_in_pieces(costs, options, piece), whole, 0);
+}
+
+TEST(SequenceSearcher, RoundsAsStated) {
+  // Normal costs, which are no multiples of the rounding step.
+  place::CostMatrix costs = place::make_cost_matrix(100, 300);
+  vo::Rng rng(3);
+  for (float& value : costs.values) value = static_cast<float>(rng.normal());
+  const SequenceSearchOptions options{.length = 20};
+  place::SequenceSearcher searcher(100, 300, {.centre = 0, .largest = 10}, options);
+  searcher.push(costs.values);
+  const auto found = searcher.finish(), plain = search_plainly(costs, options);
+  // 10 * 20 fit 30 bits at 2^-22, so a term is off by 2^-23 and so is the mean of 20, plus a float's
+  // rounding; a score is the difference of two.
+  expect_same(found, plain, 2 * (std::exp2(-23) + 2e-7));
+}
+
+TEST(SequenceSearcher, OfNothingFindsNothing) {
+  for (const auto& [queries, references] : {std::pair{0, 5}, {5, 0}, {0, 0}}) {
+    place::SequenceSearcher searcher(static_cast<std::size_t>(queries), static_cast<std::size_t>(references),
+                                     {});
+    searcher.push({});
+    const auto matches = searcher.finish();
+    ASSERT_EQ(matches.size(), static_cast<std::size_t>(queries));
+    for (const auto& match : matches) EXPECT_FALSE(match.reference);
+  }
+}
+
+TEST(SequenceSearcher, WantsWholeRowsAndAllOfThem) {
+  const std::vector<float> values(12);
+  place::SequenceSearcher searcher(3, 4, {});
+  EXPECT_THROW(searcher.push(std::span(values).first(5)), std::invalid_argument);
+  searcher.push(std::span(values).first(8));
+  EXPECT_THROW(searcher.finish(), std::invalid_argument);
+  EXPECT_THROW(searcher.push(std::span(values).first(8)), std::invalid_argument);
+  EXPECT_THROW(place::SequenceSearcher(3, 4, {}, {.length = 0}), std::invalid_argument);
+}
+
+TEST(SequenceSearcher, IsTheSameForAnyThreadCount) {
+  const auto costs = random_costs(80, 2500, 4);
+  vo::set_thread_count(1);
+  const auto one = search_in_pieces(costs, {}, 80);
+  vo::set_thread_count(4);
+  expect_same(search_in_pieces(costs, {}, 80), one, 0);
+  vo::set_thread_count(0);
+}
+
+TEST(LineRuns, WorkedExample) {
+  // Slope 1 is one run; slope 0.5 of offsets -1 -1 0 1 (length 4: -2, -1, 0, 1) two of step 1: -1 | -1 0 1.
+  const auto lines = place::search_lines({.length = 4, .v_min = 0.5, .v_max = 0.5});
+  const auto runs = place::line_runs(lines, 100, 100);
+  EXPECT_THAT(runs.steps, testing::ElementsAre(1));
+  ASSERT_EQ(runs.runs.size(), 2U);
+  EXPECT_EQ(runs.runs[0].first_query, -2);
+  EXPECT_EQ(runs.runs[0].last_query, -2);
+  EXPECT_EQ(runs.runs[1].first_query, -1);
+  EXPECT_EQ(runs.runs[1].first_reference, -1);
+  EXPECT_EQ(runs.runs[1].last_query, 1);
+  EXPECT_EQ(runs.runs[1].last_reference, 1);
+}
+
+TEST(LineRuns, CoverEveryTermOnce) {
+  for (const double range_rad : {0.0, 0.1, 0.5, 0.78}) {
+    const auto lines = place::search_lines({.length = 23, .search_range_rad = range_rad});
+    const auto runs = place::line_runs(lines, 1000, 100000);
+    auto run = runs.runs.begin();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::vector<int> offsets;
+      for (std::uint32_t left = runs.counts[i]; left > 0; --left, ++run) {
+        const int step = runs.steps[run->ring];
+        for (int q = run->first_query; q <= run->last_query; ++q) {
+          EXPECT_EQ(q, static_cast<int>(offsets.size()) - 11);
+          offsets.push_back(run->first_reference + (q - run->first_query) * step);
+        }
+        EXPECT_EQ(offsets.back(), run->last_reference);
+      }
+      EXPECT_EQ(offsets, lines[i].offsets);
+    }
+  }
+}
+
+TEST(LineRuns, AreFewNearWholeSlopes) {
+  // One more for each half keyframe that a line strays from the diagonal, whatever its length.
+  for (const int length : {10, 50, 200}) {
+    const auto lines =
+        place::search_lines({.length = length, .v_min = 1 - 2.0 / length, .v_max = 1 - 2.0 / length});
+    EXPECT_LE(place::line_runs(lines, 1000, 1000).runs.size(), 5U) << length;
+  }
+}
+
+#if defined(__x86_64__)
+TEST(LineKernels, OfAvx2EqualTheScalarOnes) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2";
+  const auto &scalar = place::kernels::scalar_line_kernels(), &avx2 = place::kernels::avx2_line_kernels();
+  vo::Rng rng(5);
+  constexpr std::size_t kColumns = 100, kLines = 3;
+  std::vector<std::uint32_t> rows(8 * kColumns);
+  for (auto& value : rows) value = static_cast<std::uint32_t>(rng.bits());
+  std::vector<float> costs(kColumns), factors(kLines * place::kernels::kChunk), terms(factors.size());
+  for (auto& value : costs) value = static_cast<float>(rng.normal());
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    factors[i] = static_cast<float>(rng.uniform(0.1, 1));
+    terms[i] = i % 5 == 0 ? std::numeric_limits<float>::infinity() : 0;
+  }
+  for (std::size_t count = 0; count < kColumns; count += 9) {
+    std::vector<std::uint32_t> a(kColumns, 7), b(kColumns, 7);
+    scalar.accumulate({costs.data(), 0.1F, 1000, rows.data(), a.data(), count});
+    avx2.accumulate({costs.data(), 0.1F, 1000, rows.data(), b.data(), count});
+    EXPECT_EQ(a, b);
+    if (count > 0) {
+      EXPECT_EQ(a[0], rows[0] + static_cast<std::uint32_t>(std::lrint((costs[0] - 0.1F) * 1000)));
+    }
+    EXPECT_EQ(a[count], 7U);  // nothing past the end
+  }
+  std::vector<place::kernels::RunEnds> ends;
+  for (std::size_t i = 0; i < 4; ++i)
+    ends.push_back({rows.data() + 2 * i * kColumns, rows.data() + (2 * i + 1) * kColumns});
+  const std::vector<std::uint32_t> counts{1, 2, 1};
+  const place::kernels::LineSums lines{ends.data(), counts.data(), kLines};
+  for (const std::size_t column : {0, 3, 64}) {
+    std::vector<float> a(place::kernels::kChunk), b(a), c(a), d(a);
+    EXPECT_EQ(scalar.least(lines, column, 0.3F, a.data()), avx2.least(lines, column, 0.3F, b.data()));
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(scalar.least_weighted(lines, column, factors.data(), terms.data(), c.data()),
+              avx2.least_weighted(lines, column, factors.data(), terms.data(), d.data()));
+    EXPECT_EQ(c, d);
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const auto run = [&](std::size_t i) { return ends[i].last[column + k] - ends[i].before[column + k]; };
+      const std::int32_t least =
+          std::min({static_cast<std::int32_t>(run(0)), static_cast<std::int32_t>(run(1) + run(2)),
+                    static_cast<std::int32_t>(run(3))});
+      EXPECT_EQ(a[k], static_cast<float>(least) * 0.3F);
+    }
+  }
+}
+#endif
+
+}  // namespace
