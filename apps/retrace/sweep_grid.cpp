@@ -114,7 +114,7 @@ Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const 
 }
 
 bool shapes_the_matrix(const std::string& setting) {
-  return group_of(setting) != "Search";
+  return group_of(setting) != "Search" || setting == "max-shift-px";
 }
 
 std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results) {
