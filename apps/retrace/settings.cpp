@@ -147,6 +147,11 @@ void add_odometry_options(CLI::App& app, Settings& s) {
 }
 
 void add_search_options(CLI::App& app, Settings& s) {
+  add_choice(app, kSearch, "--candidates", s.localiser.candidate_use,
+             {{"auto", place::CandidateUse::kAuto},
+              {"never", place::CandidateUse::kNever},
+              {"always", place::CandidateUse::kAlways}},
+             "compare with a shortlist of the reference only; auto does so from 1000 on 100000 keyframes up");
   add(app, kSearch, "--max-shift-px", s.localiser.cost.max_shift_px,
       "pixels of the thumbnail, sideways, within which the query is moved to fit best")
       ->check(CLI::Range(0, 100));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "place/candidates.hpp"
 #include "place/contrast_enhancement.hpp"
 #include "place/match.hpp"
 #include "place/openseqslam.hpp"
@@ -57,8 +58,17 @@ struct Survey {
 Traverse make_traverse(const std::string& name, const vo::Walk& walk, const SampledWalk& sampled,
                        const std::optional<Survey>& survey);
 
+/// Whether a walk is compared with all of a traverse or with a shortlist of it.
+enum class CandidateUse {
+  kAuto,    ///< a shortlist where walk and traverse are so long that it saves time
+  kNever,   ///< always all
+  kAlways,  ///< always a shortlist
+};
+
 /// Settings of `localise`.
 struct LocaliserOptions {
+  CandidateUse candidate_use = CandidateUse::kAuto;
+  CandidateOptions candidates;  ///< its margin is widened to half a line
   CostOptions cost;
   ContrastEnhancementOptions enhancement;
   SequenceSearchOptions search;
@@ -74,7 +84,8 @@ struct LocaliserOptions {
 struct SearchMatrices {
   CostMatrix cost;
   CostMatrix enhanced;
-  std::size_t shrink = 1;  ///< a cell is the least of so many by so many, where the matrix is a large one
+  std::size_t shrink = 1;  ///< a cell is the least of so many by so many, where the matrix is a large one;
+                           ///< infinite where no pair of them was compared
 };
 inline constexpr std::size_t kLargestMatrix = 1024;  ///< cells along a side, above which it is shrunk
 

@@ -224,6 +224,22 @@ TEST_F(LocaliserTest, FindsAWalkAtAnotherSpeed) {
   }
 }
 
+TEST_F(LocaliserTest, FindsAWalkAmongCandidates) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  const auto exact = place::localise(route_, query.walk, sampled, options_);
+  options_.candidate_use = place::CandidateUse::kAlways;
+  options_.candidates = {.sample = 8, .run = 8, .stretches = 1, .margin = 0};
+  const auto found = place::localise(route_, query.walk, sampled, options_);
+  std::size_t unlike = 0, left_out = 0;
+  for (std::size_t q = 0; q < exact.matches.size(); ++q)
+    unlike += exact.matches[q].place->keyframe != found.matches[q].place->keyframe ? 1 : 0;
+  EXPECT_LE(unlike, exact.matches.size() / 10);  // a neighbour where two are all but as good
+  for (const float value : found.matrices[0].cost.values) left_out += std::isinf(value) ? 1 : 0;
+  EXPECT_GT(left_out, 0U);
+  EXPECT_EQ(found.matrices[0].cost.references, route_.traverses[0].keyframes.size());
+}
+
 TEST_F(LocaliserTest, ShrinksLargeMatricesUnlessTheyAreAskedFor) {
   // A traverse of noise, three times as long as a matrix is kept whole.
   const std::size_t references = 3 * place::kLargestMatrix - 7;
