@@ -3,6 +3,7 @@
 #include "command.hpp"
 #include "report/page.hpp"
 #include "run_directory.hpp"
+#include "trajectory_metrics.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -220,6 +221,14 @@ void evaluate(const EvaluateOptions& options) {
     fmt::print("median error {:.3g} {}, 95 % within {:.3g}\n", evaluation.errors->p50, unit,
                evaluation.errors->p95);
   }
+  if (metrics.contains("ape_rmse_m") && !metrics["ape_rmse_m"].is_null()) {
+    fmt::print("trajectory: APE {:.2f} m rmse, {:.2f} m at the end", metrics["ape_rmse_m"].get<double>(),
+               metrics["ape_end_m"].get<double>());
+    if (!metrics["ape_odometry_rmse_m"].is_null())
+      fmt::print(" (odometry alone {:.2f} m, {:.2f} m)", metrics["ape_odometry_rmse_m"].get<double>(),
+                 metrics["ape_odometry_end_m"].get<double>());
+    fmt::print("; RPE {:.3f} m\n", metrics["rpe_rmse_m"].get<double>());
+  }
   fmt::print("{} query keyframes, {} with a true place, {} matched; see {}\n", evaluation.queries,
              evaluation.with_truth, evaluation.matched,
              (fs::path(options.inputs.folder) / "report.html").string());
@@ -254,6 +263,7 @@ EvaluatedRun evaluate_run(const EvaluationInputs& inputs) {
   }
   const place::OperatingPoint accepted = accepted_point(rows, queries, tolerance);
   ordered_json metrics = metrics_json(evaluation, accepted, tolerance, unit);
+  if (!inputs.query_truth.empty()) metrics.update(trajectory_metrics(folder, inputs.query_truth));
   vo::write_file(folder / "metrics.json", metrics.dump(2) + "\n");
   vo::write_file(folder / "pr.csv", pr_csv(evaluation));
   vo::write_file(folder / "report.html", report(folder, evaluation, accepted, metrics, unit));

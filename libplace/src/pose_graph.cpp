@@ -236,16 +236,19 @@ std::vector<double> squared_errors(const Graph& graph, const DriftCorrectionOpti
 }
 
 /// Geman and McClure's weights at one stage of non-convexity (Yang et al. 2020, Eq. 12); mu = 1 is their cost
-/// itself, a large one nearly least squares.
-void reweight(Graph& graph, double mu, const DriftCorrectionOptions& options) {
+/// itself, a large one nearly least squares. Returns the largest change.
+double reweight(Graph& graph, double mu, const DriftCorrectionOptions& options) {
   const std::vector<double> errors = squared_errors(graph, options);
   std::size_t i = 0;
+  double change = 0;
   for (auto* constraints : {&graph.fixes, &graph.loops}) {
     for (Constraint& constraint : *constraints) {
       const double share = mu * options.outlier_chi2 / (errors[i++] + mu * options.outlier_chi2);
+      change = std::max(change, std::abs(share * share - constraint.weight));
       constraint.weight = share * share;
     }
   }
+  return change;
 }
 
 }  // namespace
@@ -261,6 +264,20 @@ Motion motion_between(const vo::Pose2& from, const vo::Pose2& to) {
   return motion;
 }
 
+State predicted(const State& state, const Motion& motion) {
+  State next = state;
+  auto& v = next.value;
+  const double turn = std::exp(v[State::kTurnScale]) * motion.turn_rad + v[State::kBias] * motion.distance_m;
+  const double scale = std::exp(v[State::kStepScale]);
+  // The mirrored turn is its own inverse.
+  const auto [x, y] =
+      seen_from(v[State::kHeading] + turn / 2, scale * motion.forward_m, scale * motion.right_m);
+  v[State::kX] += x;
+  v[State::kY] += y;
+  v[State::kHeading] += turn;
+  return next;
+}
+
 Prior prior_at_start(const State& state, bool pose_known, const DriftCorrectionOptions& options) {
   constexpr double kExact = 1e-4;  // metres, radians
   Prior prior;
@@ -272,30 +289,27 @@ Prior prior_at_start(const State& state, bool pose_known, const DriftCorrectionO
   return prior;
 }
 
-bool solve(Graph& graph, const DriftCorrectionOptions& options) {
-  // From the outliers' size or from where the initial alignment is surely inside the basin, halving.
-  constexpr double kConvexEnough = 1024, kStep = 2;
-  constexpr int kIterations = 3, kLastIterations = 30;
-  constexpr double kTolerance = 1e-3, kLastTolerance = 1e-8;
+bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_convex) {
+  constexpr double kStep = 2;  // between stages
+  constexpr int kIterations = 3, kLastIterations = 30, kMostRounds = 5;
+  constexpr double kTolerance = 1e-3, kLastTolerance = 1e-8, kSettled = 0.01;
   const std::vector<State> before = graph.states;
   const std::vector<double> errors = squared_errors(graph, options);
-  double mu = errors.empty() ? 1 : 2 * std::ranges::max(errors) / options.outlier_chi2;
-  mu = std::clamp(mu, 1.0, kConvexEnough);
+  const double worst = errors.empty() ? 0 : std::ranges::max(errors);
   Problem problem(graph, options);
   bool usable = true;
-  while (usable) {
+  for (double mu = std::clamp(2 * worst / options.outlier_chi2, 1.0, most_convex); mu > 1 && usable;
+       mu /= kStep) {
     reweight(graph, mu, options);
     problem.set_weights(graph);
-    const bool last = mu <= 1;
-    usable = problem.minimise(last ? kLastIterations : kIterations, last ? kLastTolerance : kTolerance);
-    if (last) break;
-    mu = std::max(1.0, mu / kStep);
+    usable = problem.minimise(kIterations, kTolerance);
   }
-  // The last weights belong to the states before them: iterate to where both agree.
-  for (int i = 0; i < 5 && usable; ++i) {
-    reweight(graph, 1, options);
+  // Geman and McClure's cost itself, until weights fit the states they lead to.
+  double change = 1;
+  for (int round = 0; round < kMostRounds && change > kSettled && usable; ++round) {
+    change = reweight(graph, 1, options);
     problem.set_weights(graph);
-    usable = problem.minimise(kIterations, kLastTolerance);
+    usable = problem.minimise(kLastIterations, kLastTolerance);
   }
   if (!usable) graph.states = before;
   return usable;

@@ -55,13 +55,17 @@ struct Graph {
 /// The motions between poses of odometry.
 Motion motion_between(const vo::Pose2& from, const vo::Pose2& to);
 
+/// Where the next node is, by odometry and the scales known so far.
+State predicted(const State& state, const Motion& motion);
+
 /// The prior of a walk's beginning: step length and turns as measured but for the options' spread, and a
 /// pose known not at all, or exactly.
 Prior prior_at_start(const State& state, bool pose_known, const DriftCorrectionOptions& options);
 
 /// Solves for the states by graduated non-convexity (Yang et al. 2020, Geman-McClure) from those given, and
-/// sets the weights. Returns false if Ceres found no finite solution; states are then what they were.
-bool solve(Graph& graph, const DriftCorrectionOptions& options);
+/// sets the weights. `most_convex`: mu to begin at, or less where no constraint is that far off. Returns
+/// false if Ceres found no finite solution; states are then what they were.
+bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_convex = 1024);
 
 /// Covariance of x, y and heading at each node, of the graph linearised at its states. Linear in nodes for a
 /// chain with fixes; loops add what they tie together.
