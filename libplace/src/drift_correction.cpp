@@ -85,4 +85,33 @@ CorrectedWalk correct_drift(const vo::Trajectory& odometry, std::span<const Pose
   return walk;
 }
 
+vo::Trajectory corrected_between(const vo::Trajectory& odometry, std::span<const std::size_t> nodes,
+                                 const CorrectedWalk& walk) {
+  if (nodes.empty() || nodes.size() != walk.poses.size())
+    throw std::invalid_argument("corrected_between: one node for each corrected pose expected");
+  // A pose as a node's correction has it.
+  const auto moved_with = [&](std::size_t node, const vo::Pose2& pose) {
+    const vo::Pose2 &from = odometry[nodes[node]].pose, &to = walk.poses[node].pose;
+    const double turn = to.heading_rad - from.heading_rad, s = std::sin(turn), c = std::cos(turn);
+    const double x = pose.x_m - from.x_m, y = pose.y_m - from.y_m;
+    return vo::Pose2{to.x_m + c * x + s * y, to.y_m + c * y - s * x,
+                     vo::wrap_angle_rad(pose.heading_rad + turn)};
+  };
+  vo::Trajectory corrected;
+  std::size_t next = 0;  // node
+  for (std::size_t i = 0; i < odometry.size(); ++i) {
+    const auto& [time_s, pose] = odometry[i];
+    while (next + 1 < nodes.size() && i >= nodes[next]) ++next;
+    const std::size_t before = next == 0 ? 0 : next - 1;
+    const vo::Pose2 a = moved_with(before, pose), b = moved_with(next, pose);
+    const double from_s = odometry[nodes[before]].time_s, to_s = odometry[nodes[next]].time_s;
+    const double t = to_s > from_s ? std::clamp((time_s - from_s) / (to_s - from_s), 0.0, 1.0) : 0;
+    corrected.push_back(
+        {time_s,
+         {std::lerp(a.x_m, b.x_m, t), std::lerp(a.y_m, b.y_m, t),
+          vo::wrap_angle_rad(a.heading_rad + t * vo::wrap_angle_rad(b.heading_rad - a.heading_rad))}});
+  }
+  return corrected;
+}
+
 }  // namespace place

@@ -239,6 +239,30 @@ TEST(DriftCorrection, SaysWhenMatchesDoNotAgree) {
   EXPECT_TRUE(walk.poses.empty());
 }
 
+TEST(DriftCorrection, BetweenNodesOdometryIsCarriedOver) {
+  // Nodes at 2, 4 and 6 s of a walk north by a metre a second; the map has them moved east by 0, 0 and 2 m.
+  vo::Trajectory odometry;
+  for (int i = 0; i <= 8; ++i) odometry.push_back({static_cast<double>(i), {0, static_cast<double>(i), 0}});
+  CorrectedWalk walk;
+  walk.poses = {{2, {0, 2, 0}}, {4, {0, 4, 0}}, {6, {2, 6, 0}}};
+  const std::vector<std::size_t> nodes{2, 4, 6};
+  const vo::Trajectory all = place::corrected_between(odometry, nodes, walk);
+  ASSERT_EQ(all.size(), 9U);
+  const double east_m[] = {0, 0, 0, 0, 0, 1, 2, 2, 2};
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(all[i].time_s, odometry[i].time_s);
+    EXPECT_NEAR(all[i].pose.x_m, east_m[i], 1e-12) << i;
+    EXPECT_NEAR(all[i].pose.y_m, static_cast<double>(i), 1e-12) << i;
+  }
+  // A node that is turned as well turns what follows it.
+  walk.poses = {{2, {10, 0, kPi / 2}}};
+  const vo::Trajectory turned = place::corrected_between(odometry, std::vector<std::size_t>{2}, walk);
+  EXPECT_NEAR(turned[5].pose.x_m, 13, 1e-12);
+  EXPECT_NEAR(turned[5].pose.y_m, 0, 1e-12);
+  EXPECT_NEAR(turned[0].pose.x_m, 8, 1e-12);
+  EXPECT_THROW(place::corrected_between(odometry, nodes, walk), std::invalid_argument);
+}
+
 TEST(DriftCorrection, NothingAndOneNode) {
   EXPECT_TRUE(correct_drift({}, {}).poses.empty());
   const CorrectedWalk one = correct_drift({{2, {1, 2, 0.5}}}, {});
