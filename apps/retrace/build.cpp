@@ -110,6 +110,7 @@ void build(const CLI::App& app, BuildOptions& options) {
   std::optional<place::Survey> survey;
   if (!options.truth.empty()) survey = survey_from_truth(options.truth, walk);
   if (!options.trajectory.empty()) survey = survey_from_trajectory(options.trajectory, walk);
+  if (!survey) survey = survey_from_odometry(walk, settings.sampling.motion.pedestrian);
 
   const AddedTraverse added = add_traverse(route, options.name, walk, survey, settings);
   place::write_route(options.output, route);

@@ -58,6 +58,7 @@ ordered_json as_json(const std::string& path, const place::Route& route) {
          {"duration_s", traverse.duration_s},
          {"frame_size", {traverse.frame_width_px, traverse.frame_height_px}},
          {"pose_source", traverse.pose_source},
+         {"surveyed", traverse.surveyed},
          {"keyframes", traverse.keyframes.size()},
          {"poses", poses},
          {"previews", previews},
@@ -91,7 +92,8 @@ void print(const std::string& path, const place::Route& route) {
     const auto surveyed =
         std::ranges::count_if(traverse.keyframes, [](const auto& k) { return k.pose.has_value(); });
     if (surveyed > 0) {
-      fmt::print("  {} poses from {}", surveyed, traverse.pose_source);
+      fmt::print("  {} poses from {}", surveyed,
+                 traverse.surveyed ? traverse.pose_source : "its own odometry, not surveyed");
       const auto &first = traverse.keyframes.front().distance_m, &last = traverse.keyframes.back().distance_m;
       if (first && last) fmt::print(", {:.2f} m", *last - *first);
       fmt::print("\n");

@@ -180,6 +180,9 @@ void add_search_options(CLI::App& app, Settings& s) {
       "reference keyframes around a match that do not compete with it [SeqSLAM's Rwindow]")
       ->check(CLI::Range(0, 1000000));
   add(app, kSearch, "--accept-score", s.localiser.acceptance_threshold, "least score of an accepted match");
+  add(app, kSearch, "--correct-drift", s.correct_drift,
+      "true: follow the walk's steps too and correct their drift by the matches, where the route has poses")
+      ->default_str(s.correct_drift ? "true" : "false");
   add_choice(app, kSearch, "--compat", s.compatibility,
              {{"none", Compatibility::kNone},
               {"openseqslam", Compatibility::kOpenSeqSlam},

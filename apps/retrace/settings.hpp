@@ -26,6 +26,7 @@ struct Settings {
   place::LocaliserOptions localiser;
   std::string camera;  ///< calibration file; empty: by the field of view
   Compatibility compatibility = Compatibility::kNone;
+  bool correct_drift = true;
   int threads = 0;
 };
 
