@@ -104,7 +104,7 @@ void build(const CLI::App& app, BuildOptions& options) {
   vo::Walk walk;
   {
     ProgressBar bar;
-    walk = vo::read_walk(options.walk, settings.walk, bar.callback());
+    walk = read_walk(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   std::optional<place::Survey> survey;
@@ -132,6 +132,7 @@ AddedTraverse add_traverse(place::Route& route, const std::string& name, const v
   place::Traverse traverse = place::make_traverse(name, walk, sampled, survey);
   for (const SettingEntry& entry : entries(settings)) traverse.settings[entry.name] = entry.value;
   route.sampling.unit = sampled.unit;
+  if (reference == nullptr) route.sampling.metric = sampled.metric;
   return {put(route, std::move(traverse)), sampled.scale};
 }
 

@@ -81,7 +81,7 @@ void print(const std::string& path, const place::Route& route) {
   if (route.sampling.motion == vo::MotionSource::kNone) {
     fmt::print("sampling: every {} frames\n", route.sampling.every);
   } else {
-    const bool metric = route.sampling.motion == vo::MotionSource::kSteps;
+    const bool metric = route.sampling.metric;
     fmt::print("sampling: by {}, unit {:.4f} {} (n = {})\n", vo::name_of(route.sampling.motion),
                route.sampling.unit, metric ? "m" : "frames of mean speed", route.sampling.n);
   }

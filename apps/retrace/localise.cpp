@@ -133,7 +133,7 @@ void localise(const CLI::App& app, LocaliseOptions& options) {
   vo::Walk walk;
   {
     ProgressBar bar;
-    walk = vo::read_walk(options.walk, settings.walk, bar.callback());
+    walk = read_walk(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   const auto [found, json] =

@@ -71,6 +71,17 @@ void add_sampling_options(CLI::App& app, Settings& s) {
               {"none", vo::MotionSource::kNone}},
              "what walks are resampled by: alignment error [SSS 3.2], steps [PVO], both and visual odometry "
              "[SSS 3.5], visual odometry alone, the trajectory of --motion-file, or nothing");
+  add(app, kSampling, "--motion-file", s.motion_file,
+      "trajectory for --motion file: TUM, KITTI, or CSV with time_s,x_m,y_m; metres")
+      ->check(CLI::ExistingFile);
+  add(app, kSampling, "--motion-file-start-s", s.external.start_s,
+      "seconds that the trajectory's clock shows at the first frame");
+  add(app, kSampling, "--motion-file-tolerance-s", s.external.time_tolerance_s,
+      "seconds that a lone pose may be away from its frame")
+      ->check(CLI::NonNegativeNumber);
+  add(app, kSampling, "--motion-file-gap-s", s.external.max_gap_s,
+      "seconds between poses beyond which the trajectory is lost; alignment error takes its place")
+      ->check(CLI::NonNegativeNumber);
   add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
       ->check(CLI::Range(1, 1000000));
   add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
@@ -239,6 +250,15 @@ void follow_motion(Settings& settings) {
   vo::keep_for(settings.sampling.sampling.motion, settings.walk);
 }
 
+vo::Walk read_walk(const std::string& source, const Settings& settings,
+                   const vo::ProgressCallback& progress) {
+  vo::Walk walk = vo::read_walk(source, settings.walk, progress);
+  if (settings.sampling.sampling.motion == vo::MotionSource::kFile)
+    walk.track =
+        vo::external_trajectory(vo::read_pose_series(settings.motion_file), walk.time_s, settings.external);
+  return walk;
+}
+
 void resolve(const CLI::App& app, Settings& settings) {
   place::SequenceSearchOptions& search = settings.localiser.search;
   if (settings.compatibility != Compatibility::kNone) {
@@ -262,6 +282,11 @@ void resolve(const CLI::App& app, Settings& settings) {
   if (sampling.motion != vo::MotionSource::kNone && sampling.every != 1) {
     throw vo::Error("--every", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "--motion none --every K");
+  }
+  if ((sampling.motion == vo::MotionSource::kFile) == settings.motion_file.empty()) {
+    throw vo::Error("--motion-file",
+                    settings.motion_file.empty() ? "is missing" : "has no meaning without --motion file",
+                    "--motion file --motion-file TRAJECTORY");
   }
   const bool may_be_metric = sampling.motion == vo::MotionSource::kSteps ||
                              sampling.motion == vo::MotionSource::kHybrid ||

@@ -111,6 +111,15 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
       walk.source, model.separation.back())};
 }
 
+/// Where one walk is in metres and the other is not (steps were seen in one of them only), both are taken to
+/// have been walked at one mean speed; `relative_scale` mends what is left.
+void to_mean_speed(const Traverse& reference, double duration_s, std::vector<double>& displacement) {
+  const double there = reference.keyframes.back().displacement / reference.duration_s;
+  const double here = std::accumulate(displacement.begin(), displacement.end(), 0.0) / duration_s;
+  if (!(there > 0 && here > 0)) return;
+  for (double& step : displacement) step *= there / here;
+}
+
 Place place_of(const Traverse& traverse, std::size_t keyframe) {
   const Keyframe& k = traverse.keyframes[keyframe];
   return {.traverse = traverse.name,
@@ -142,6 +151,8 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
                     "no --spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
+  if (reference != nullptr && motion.metric != route.sampling.metric)
+    to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
   if (motion.visual) {
     sampled.motion_model = std::move(motion.visual->model);
     sampled.warnings = motion_warnings(walk, sampled.motion_model);

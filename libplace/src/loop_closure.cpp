@@ -15,8 +15,8 @@ std::size_t past_of(std::span<const double> travelled_m, std::size_t node, doubl
                                   travelled_m.begin());
 }
 
-/// The enhanced costs of the past. What is not past takes part in means and deviations, most of it being other
-/// places; then it is an average cost, so that only what is alike is a match.
+/// The enhanced costs of the past. What is not past takes part in means and deviations, most of it being
+/// other places; then it is an average cost, so that only what is alike is a match.
 CostMatrix costs_of_the_past(const vo::ImageStack& thumbnails, const std::vector<std::size_t>& past,
                              const LoopClosureOptions& options) {
   const vo::ImageStack normalised = vo::patch_normalise(thumbnails, options.patch);

@@ -30,7 +30,7 @@ CREATE TABLE route(
   patch_px INTEGER NOT NULL, patch_shape TEXT NOT NULL, patch_min_deviation REAL NOT NULL,
   patch_min_contrast REAL NOT NULL,
   motion TEXT NOT NULL, every INTEGER NOT NULL, sampling_n REAL NOT NULL, sampling_unit REAL NOT NULL,
-  traverses INTEGER NOT NULL);
+  traverses INTEGER NOT NULL, metric INTEGER NOT NULL);
 CREATE TABLE traverse(
   id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, source TEXT NOT NULL,
   frames INTEGER NOT NULL, duration_s REAL NOT NULL, frame_width_px INTEGER NOT NULL, frame_height_px INTEGER NOT NULL,
@@ -226,6 +226,8 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
 
 /// What files of schema 1 have not.
 void read_additions_of_schema_2(const Database& database, Route& route) {
+  Statement metric = database.prepare("SELECT metric FROM route");
+  if (metric.step()) route.sampling.metric = metric.integer() != 0;
   Statement surveyed = database.prepare("SELECT surveyed FROM traverse ORDER BY id");
   for (Traverse& traverse : route.traverses) {
     if (surveyed.step()) traverse.surveyed = surveyed.integer() != 0;
@@ -281,6 +283,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   const std::optional<vo::MotionSource> motion = motion_source(row.text());
   if (!motion) damaged(shown, "its motion source is unknown");
   route.sampling.motion = *motion;
+  route.sampling.metric = *motion == vo::MotionSource::kSteps;  // of schema 1 the only metric source
   route.sampling.every = static_cast<int>(row.integer());
   route.sampling.n = row.real();
   route.sampling.unit = row.real();
@@ -308,7 +311,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
                              kRouteSchemaVersion));
     database.run("BEGIN");
     database.run(kSchema);
-    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
+    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)")
         .bind(std::string_view(kVersion))
         .bind(std::int64_t{route.thumbnail.width})
         .bind(std::int64_t{route.thumbnail.height})
@@ -321,6 +324,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
         .bind(route.sampling.n)
         .bind(route.sampling.unit)
         .bind(static_cast<std::int64_t>(route.traverses.size()))
+        .bind(std::int64_t{route.sampling.metric ? 1 : 0})
         .execute();
     if (route.origin) {
       database.prepare("INSERT INTO geographic_origin VALUES(?,?)")

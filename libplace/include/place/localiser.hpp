@@ -34,7 +34,7 @@ struct SampledWalk {
       displacement;              ///< of every frame of the walk since the one before; empty without motion
   vo::ImageStack thumbnails;     ///< of the keyframes
   vo::MotionModel motion_model;  ///< of alignment error, learned on the walk; nothing in it without
-  bool metric = false;           ///< the displacement is in metres
+  bool metric = false;           ///< the displacement came in metres
   double scale = 1;              ///< the displacement was multiplied by this to fit the route's
   double unit = 0;               ///< displacement between keyframes (SSS Eq. 4); 0 without motion
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes

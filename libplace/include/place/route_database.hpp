@@ -24,6 +24,7 @@ struct Sampling {
   std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4; with metric motion
   double unit =
       0;  ///< SSS Eq. 4's u, in the displacement's unit, learned from the first traverse; with motion
+  bool metric = false;  ///< that unit is the metre; otherwise frames at the first traverse's mean speed
 };
 
 /// A place on a traverse.

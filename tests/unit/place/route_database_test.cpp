@@ -51,7 +51,7 @@ place::Route example_route() {
   place::Route route;
   route.thumbnail = {.width = 16, .height = 8};
   route.patch = {.patch_px = 4, .shape = vo::PatchShape::kWindow, .min_deviation = 1.5, .min_contrast = 0.7};
-  route.sampling = {.motion = vo::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1};
+  route.sampling = {.motion = vo::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1, .metric = true};
   route.traverses.push_back(example_traverse("by day", 600, 1));    // three chunks, the last one not full
   route.traverses.push_back(example_traverse("by night", 256, 2));  // one full chunk
   route.traverses.push_back(example_traverse("", 0, 3));            // no keyframe
@@ -103,6 +103,7 @@ void expect_equal(const place::Route& a, const place::Route& b) {
   EXPECT_EQ(a.sampling.every, b.sampling.every);
   EXPECT_EQ(a.sampling.n, b.sampling.n);
   EXPECT_EQ(a.sampling.unit, b.sampling.unit);
+  EXPECT_EQ(a.sampling.metric, b.sampling.metric);
   ASSERT_EQ(a.origin.has_value(), b.origin.has_value());
   if (a.origin) {
     EXPECT_EQ(a.origin->latitude_deg, b.origin->latitude_deg);
