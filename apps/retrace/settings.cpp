@@ -252,10 +252,16 @@ void follow_motion(Settings& settings) {
 
 vo::Walk read_walk(const std::string& source, const Settings& settings,
                    const vo::ProgressCallback& progress) {
+  const bool by_file = settings.sampling.sampling.motion == vo::MotionSource::kFile;
+  if (by_file == settings.motion_file.empty()) {
+    throw vo::Error("--motion-file", by_file ? "is missing" : "has no meaning without --motion file",
+                    "--motion file --motion-file TRAJECTORY");
+  }
   vo::Walk walk = vo::read_walk(source, settings.walk, progress);
-  if (settings.sampling.sampling.motion == vo::MotionSource::kFile)
+  if (by_file) {
     walk.track =
         vo::external_trajectory(vo::read_pose_series(settings.motion_file), walk.time_s, settings.external);
+  }
   return walk;
 }
 
@@ -282,11 +288,6 @@ void resolve(const CLI::App& app, Settings& settings) {
   if (sampling.motion != vo::MotionSource::kNone && sampling.every != 1) {
     throw vo::Error("--every", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "--motion none --every K");
-  }
-  if ((sampling.motion == vo::MotionSource::kFile) == settings.motion_file.empty()) {
-    throw vo::Error("--motion-file",
-                    settings.motion_file.empty() ? "is missing" : "has no meaning without --motion file",
-                    "--motion file --motion-file TRAJECTORY");
   }
   const bool may_be_metric = sampling.motion == vo::MotionSource::kSteps ||
                              sampling.motion == vo::MotionSource::kHybrid ||
