@@ -104,12 +104,13 @@ void build(const CLI::App& app, BuildOptions& options) {
   vo::Walk walk;
   {
     ProgressBar bar;
-    walk = vo::read_walk(options.walk, settings.walk, bar.callback());
+    walk = read_walk(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   std::optional<place::Survey> survey;
   if (!options.truth.empty()) survey = survey_from_truth(options.truth, walk);
   if (!options.trajectory.empty()) survey = survey_from_trajectory(options.trajectory, walk);
+  if (!survey) survey = survey_from_odometry(walk, settings.sampling.motion.pedestrian);
 
   const AddedTraverse added = add_traverse(route, options.name, walk, survey, settings);
   place::write_route(options.output, route);
@@ -131,6 +132,7 @@ AddedTraverse add_traverse(place::Route& route, const std::string& name, const v
   place::Traverse traverse = place::make_traverse(name, walk, sampled, survey);
   for (const SettingEntry& entry : entries(settings)) traverse.settings[entry.name] = entry.value;
   route.sampling.unit = sampled.unit;
+  if (reference == nullptr) route.sampling.metric = sampled.metric;
   return {put(route, std::move(traverse)), sampled.scale};
 }
 

@@ -18,6 +18,8 @@ Command add_build(CLI::App& root);
 Command add_localise(CLI::App& root);
 Command add_evaluate(CLI::App& root);
 Command add_evaluate_odometry(CLI::App& root);
+Command add_sweep(CLI::App& root);
+Command add_compare(CLI::App& root);
 Command add_inspect(CLI::App& root);
 Command add_simulate(CLI::App& root);
 Command add_demo(CLI::App& root);

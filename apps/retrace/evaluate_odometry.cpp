@@ -1,4 +1,6 @@
 #include "command.hpp"
+#include "report/odometry_report.hpp"
+#include "visual_odometry.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -29,8 +31,10 @@ constexpr std::string_view kProtocol =
 struct EvaluateOdometryOptions {
   CommonOptions common;
   std::string folder;  ///< written by `retrace odometry`
-  std::string truth;   ///< truth.csv, or a way on a map
+  std::string kitti_poses;
+  std::string truth;  ///< truth.csv, or a way on a map
   std::optional<double> map_scale_m_per_px;
+  std::string map_image;
   std::optional<std::size_t> true_steps;
   vo::OdometryEvaluationOptions evaluation;
 };
@@ -102,6 +106,15 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::is_directory(folder))
     throw vo::Error(options.folder, "is no folder", "one written by `retrace odometry`");
+  if (!options.kitti_poses.empty()) {
+    const ordered_json metrics = kitti_metrics(folder, options.kitti_poses);
+    vo::write_file(folder / "kitti_metrics.json", metrics.dump(2) + "\n");
+    if (options.common.json)
+      fmt::print("{}\n", metrics.dump(2));
+    else
+      print_kitti_metrics(metrics);
+    return;
+  }
   const std::size_t steps = vo::CsvTable::read(folder / "steps.csv").rows();
   const vo::Trajectory trajectory = vo::read_tum(folder / "trajectory.tum");
   const Truth truth = read_truth(options);
@@ -114,6 +127,13 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   }
   const ordered_json metrics = metrics_json(steps, truth.steps, evaluation, options.evaluation);
   vo::write_file(folder / "odometry_metrics.json", metrics.dump(2) + "\n");
+  const OdometryTruth for_report{.poses = truth.walk.poses,
+                                 .way = truth.way,
+                                 .map_image = options.map_image,
+                                 .map_scale_m_per_px = options.map_scale_m_per_px.value_or(0),
+                                 .steps = truth.steps ? std::to_string(*truth.steps) : "",
+                                 .evaluation = evaluation};
+  vo::write_file(folder / "report.html", odometry_report(folder, &for_report));
   if (options.common.json) {
     fmt::print("{}\n", metrics.dump(2));
     return;
@@ -129,6 +149,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
                fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
                fmt::format("{:.2f} +- {:.2f}", errors.heading_mean_deg, errors.heading_sd_deg));
   }
+  fmt::print("see {}\n", (folder / "report.html").string());
 }
 
 }  // namespace
@@ -139,11 +160,20 @@ Command add_evaluate_odometry(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("evaluate-odometry", "steps and trajectory of a walk against the truth");
   app->add_option("run", options->folder, "folder written by `retrace odometry`")->required();
-  app->add_option("--truth", options->truth,
-                  "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up")
-      ->required();
-  app->add_option("--map-scale-m-per-px", options->map_scale_m_per_px, "metres of one pixel of that map")
-      ->check(CLI::PositiveNumber);
+  CLI::Option_group* truth = app->add_option_group("Truth");
+  truth->add_option("--truth", options->truth,
+                    "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up");
+  truth->add_option(
+      "--kitti-poses", options->kitti_poses,
+      "true poses in KITTI's form: its errors of visual odometry alone, which `retrace odometry "
+      "--visual-odometry` wrote");
+  truth->require_option(1);
+  CLI::Option* scale =
+      app->add_option("--map-scale-m-per-px", options->map_scale_m_per_px, "metres of one pixel of that map")
+          ->check(CLI::PositiveNumber);
+  app->add_option("--map-image", options->map_image, "that map, PNG or JPEG, to draw the trajectory over")
+      ->check(CLI::ExistingFile)
+      ->needs(scale);
   app->add_option("--true-steps", options->true_steps, "steps counted, where the truth has none")
       ->check(CLI::Range(0, 1000000000));
   app->add_option("--segments", evaluation.segments, "random segments measured [PVO 5.2]")
@@ -159,7 +189,8 @@ Command add_evaluate_odometry(CLI::App& root) {
       "Examples:\n"
       "  retrace evaluate-odometry walk --truth truth.csv\n"
       "  retrace evaluate-odometry walk --truth way.csv --map-scale-m-per-px 0.2 --true-steps 512 "
-      "--segment-m 50");
+      "--segment-m 50\n"
+      "  retrace evaluate-odometry drive --kitti-poses 03.txt");
   return {app, [options] { evaluate_odometry(*options); }};
 }
 

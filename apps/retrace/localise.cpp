@@ -1,13 +1,17 @@
 #include "localise.hpp"
 
 #include "command.hpp"
+#include "matches_file.hpp"
 #include "progress_bar.hpp"
+#include "query_trajectory.hpp"
 #include "report/matrix_picture.hpp"
-#include "report/page.hpp"
+#include "report/run_data.hpp"
+#include "report/run_report.hpp"
 #include "route_settings.hpp"
 #include "run_directory.hpp"
 #include "settings.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -19,7 +23,6 @@
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/io/atomic_file.hpp>
-#include <vo/io/trajectory_io.hpp>
 
 namespace retrace {
 namespace {
@@ -36,37 +39,6 @@ struct LocaliseOptions {
   bool save_matrices = false;
 };
 
-std::string csv_field(const std::optional<double>& value) {
-  return value ? fmt::format("{:.6g}", *value) : "";
-}
-
-std::string matches_csv(const std::vector<place::Match>& matches) {
-  std::string csv =
-      "query_frame,query_time_s,traverse,reference_frame,reference_time_s,reference_distance_m,score,"
-      "accepted\n";
-  for (const place::Match& match : matches) {
-    csv += fmt::format("{},{:.6f},", match.query_frame, match.query_time_s);
-    if (match.place) {
-      csv += fmt::format("{},{},{:.6f},{}", match.place->traverse, match.place->frame, match.place->time_s,
-                         csv_field(match.place->distance_m));
-    } else {
-      csv += ",,,";
-    }
-    csv += fmt::format(",{:.9g},{}\n", match.score, match.accepted ? 1 : 0);
-  }
-  return csv;
-}
-
-/// The accepted matches' surveyed poses at the query's times: where the walker was.
-std::string trajectory_tum(const std::vector<place::Match>& matches) {
-  vo::Trajectory trajectory;
-  for (const place::Match& match : matches) {
-    if (match.accepted && match.place->pose) trajectory.push_back({match.query_time_s, *match.place->pose});
-  }
-  return vo::to_tum(trajectory,
-                    trajectory.empty()
-                        ? "no pose: the route has none (build it with --truth or --trajectory), or no match"
-                        : "query time, surveyed pose of the matched reference keyframe");
 }
 
 /// One line for each row, nine digits, which tell floats apart.
@@ -81,9 +53,21 @@ std::string matrix_csv(const place::CostMatrix& matrix) {
   return fmt::to_string(text);
 }
 
+ordered_json drift_summary(const QueryTrajectory& trajectory) {
+  if (!trajectory.why_not.empty()) return {{"corrected", false}, {"reason", trajectory.why_not}};
+  const place::CorrectedWalk& walk = trajectory.corrected;
+  // Half of its weight gone, a match is let go.
+  const auto believed = std::ranges::count_if(walk.fix_weight, [](double weight) { return weight >= 0.5; });
+  return {{"corrected", true},
+          {"matches_used", trajectory.fixes.size()},
+          {"matches_believed", believed},
+          {"step_scale", walk.step_scale.back()},
+          {"turn_scale", walk.turn_scale.back()}};
+}
+
 ordered_json summary(const place::Route& route, const std::string& route_path, const vo::Walk& walk,
                      const Settings& settings, const place::SampledWalk& sampled,
-                     const place::Localisation& found) {
+                     const place::Localisation& found, const QueryTrajectory& trajectory) {
   std::size_t matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
   for (const place::Match& match : found.matches) {
     matched += match.place ? 1 : 0;
@@ -108,62 +92,48 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
                     {"relative_scale", sampled.scale},
                     {"warnings", walk.warnings},
                     {"version", place::kVersion}};
+  json["drift"] = drift_summary(trajectory);
   for (const place::Traverse& traverse : route.traverses) {
     json["traverses"].push_back({{"name", traverse.name}, {"keyframes", traverse.keyframes.size()}});
   }
   return json;
 }
 
-std::string report(const ordered_json& summary, const place::Route& route, const place::Localisation& found,
-                   const Settings& settings, const std::vector<std::vector<std::uint8_t>>& pictures) {
-  const auto count = [&](const char* name) { return std::to_string(summary[name].get<std::size_t>()); };
-  Page page("Where the walk was found", fmt::format("{} on {}", summary["query"].get<std::string>(),
-                                                    summary["route"].get<std::string>()));
-  page.facts({{"Query keyframes", fmt::format("{} of {} frames", count("queries"), count("query_frames"))},
-              {"Matched", count("matched")},
-              {"Accepted", fmt::format("{} (score {} or more)", count("accepted"),
-                                       settings.localiser.acceptance_threshold)},
-              {"On part of a line",
-               fmt::format("{}, of them accepted {} (within half a sequence of an end of either walk)",
-                           count("partial"), count("partial_accepted"))},
-              {"Sequence length", fmt::format("{} keyframes", found.sequence_length)},
-              {"Relative scale", fmt::format("{:.3f}", summary["relative_scale"].get<double>())}});
-  page.paragraph("Precision and recall need the truth: retrace evaluate.");
-  for (const auto& warning : summary["warnings"]) page.paragraph("Warning: " + warning.get<std::string>());
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    page.heading("Cost matrix against " + route.traverses[i].name);
-    page.picture(pictures[i], "Enhanced cost matrix with the matches over it",
-                 "Query keyframes from left to right, reference keyframes from bottom to top, dark where "
-                 "alike. Filled "
-                 "orange: accepted. Hollow blue: refused.");
+void print_table(const fs::path& folder, const ordered_json& summary) {
+  const auto row = [](std::string_view name, std::size_t count, std::string_view note) {
+    fmt::print("  {:<20}{:>7}   {}\n", name, count, note);
+  };
+  const auto count = [&](const char* name) { return summary[name].get<std::size_t>(); };
+  fmt::print("{} on {}\n", summary["query"].get<std::string>(), summary["route"].get<std::string>());
+  row("query keyframes", count("queries"), fmt::format("of {} frames", count("query_frames")));
+  row("matched", count("matched"), fmt::format("{} on part of a line", count("partial")));
+  row("accepted", count("accepted"),
+      fmt::format("score {:g} or more", summary["accept_score"].get<double>()));
+  for (const ordered_json& traverse : summary["traverses"]) {
+    row("route keyframes", traverse["keyframes"].get<std::size_t>(), traverse["name"].get<std::string>());
   }
-  page.heading("Settings");
-  std::vector<std::vector<std::string>> rows;
-  for (const SettingEntry& entry : entries(settings))
-    rows.push_back({entry.name, entry.value, entry.description});
-  page.table({"setting", "value", "what it is"}, rows);
-  return page.html();
+  fmt::print("see {}\n", (folder / "report.html").string());
 }
 
 void localise(const CLI::App& app, LocaliseOptions& options) {
   Settings& settings = options.settings;
   vo::set_thread_count(settings.threads);
   resolve(app, settings);
-  const place::Route route = place::read_route(options.route, {.previews = false});
+  const place::Route route = place::read_route(options.route);
   if (route.traverses.empty())
     throw vo::Error(options.route, "has no traverse", "a route built by `retrace build`");
   take_from_route(app, options.route, route, settings);
   const fs::path folder = options.output;
   prepare_run_directory(folder,
-                        {"matches.csv", "trajectory.tum", "summary.json", "report.html", "config.toml"},
+                        {"matches.csv", "trajectory.tum", "trajectory_odometry.tum", "trajectory.csv",
+                         "summary.json", "report.html", kRunDataFile, "config.toml"},
                         options.common.force);
+  if (settings.correct_drift && has_poses(route)) settings.walk.track_features = true;
 
   vo::Walk walk;
   {
     ProgressBar bar;
-    vo::WalkOptions without_previews = settings.walk;
-    without_previews.preview_width_px = 0;
-    walk = vo::read_walk(options.walk, without_previews, bar.callback());
+    walk = read_walk(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   const auto [found, json] =
@@ -171,10 +141,7 @@ void localise(const CLI::App& app, LocaliseOptions& options) {
   if (options.common.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}: {} of {} query keyframes accepted ({} matched, {} on part of a line); see {}\n",
-               options.output, json["accepted"].get<std::size_t>(), found.matches.size(),
-               json["matched"].get<std::size_t>(), json["partial"].get<std::size_t>(),
-               (folder / "report.html").string());
+    print_table(folder, json);
   }
 }
 
@@ -189,21 +156,24 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   localiser.whole_matrices = save_matrices;
   place::Localisation found = place::localise(route, walk, sampled, localiser);
 
-  std::vector<std::vector<std::uint8_t>> pictures;
-  for (std::size_t i = 0; i < route.traverses.size(); ++i) {
-    pictures.push_back(matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name, 900,
-                                      found.matrices[i].shrink));
-  }
-  ordered_json json = summary(route, route_path, walk, settings, sampled, found);
+  const QueryTrajectory trajectory = query_trajectory(route, walk, found, settings);
+  if (trajectory.asked_for && !trajectory.why_not.empty())
+    spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
+                 trajectory.why_not);
+  ordered_json json = summary(route, route_path, walk, settings, sampled, found, trajectory);
   vo::write_file(folder / "matches.csv", matches_csv(found.matches));
-  vo::write_file(folder / "trajectory.tum", trajectory_tum(found.matches));
+  write_trajectory(trajectory, route, found.matches, folder);
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
-  vo::write_file(folder / "report.html", report(json, route, found, settings, pictures));
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
+  const ordered_json data = run_data(route, walk, sampled, found.matches, found.matrices);
+  vo::write_file(folder / kRunDataFile, data.dump());
+  vo::write_file(folder / "report.html", run_report(folder, data));
+  for (std::size_t i = 0; i < found.matrices.size(); ++i) {
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
+    const std::vector<std::uint8_t> png = matrix_picture(
+        found.matrices[i].enhanced, found.matches, route.traverses[i].name, 900, found.matrices[i].shrink);
     vo::write_file(folder / fmt::format("cost_matrix{}.png", suffix),
-                   {reinterpret_cast<const char*>(pictures[i].data()), pictures[i].size()});
+                   {reinterpret_cast<const char*>(png.data()), png.size()});
     if (!save_matrices) continue;
     vo::write_file(folder / fmt::format("D{}.csv", suffix), matrix_csv(found.matrices[i].cost));
     vo::write_file(folder / fmt::format("DD{}.csv", suffix), matrix_csv(found.matrices[i].enhanced));

@@ -1,10 +1,14 @@
+#include "choice.hpp"
 #include "command.hpp"
 #include "progress_bar.hpp"
+#include "report/odometry_report.hpp"
 #include "run_directory.hpp"
 #include "settings.hpp"
+#include "visual_odometry.hpp"
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -32,36 +36,42 @@ struct OdometryOptions {
   std::string walk;
   std::string output;
   std::optional<double> walk_length_m;
+  bool visual_odometry = false;
 };
 
-std::string frames_csv(const vo::Walk& walk, const vo::PedestrianMotion& motion) {
+std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
   std::string csv =
       "frame,time_s,displacement,unit,source,orientation_deg,dx_px,matches,heading_deg,"
-      "step_signal,step_threshold,reliable,x_m,y_m\n";
-  const std::vector<double>& signal = vo::step_signal(motion);
+      "step_signal,step_threshold,reliable,x_m,y_m,displacement_sigma\n";
+  const vo::PedestrianMotion& gait = *motion.pedestrian;
+  const std::vector<double>& signal = vo::step_signal(gait);
+  const std::string_view unit = motion.metric ? "m" : "frames";
   for (std::size_t i = 0; i < walk.frames(); ++i) {
     const vo::FrameMotion& tracked = walk.tracked[i];
-    const vo::Pose2& pose = motion.trajectory.at_frame[i].pose;
+    const vo::FrameDisplacement& moved = motion.frames[i];
+    const vo::Pose2& pose = motion.trajectory[i].pose;
     const auto measured = [](const std::optional<double>& value) {
       return value ? fmt::format("{:.6f}", *value) : std::string();
     };
-    csv += fmt::format("{},{:.6f},{:.6f},m,steps,{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f}\n", i,
-                       walk.time_s[i], motion.displacement_m[i], measured(tracked.orientation_deg),
-                       measured(tracked.shift_px), tracked.matches, motion.signal.heading_rad[i] * kDegrees,
-                       signal[i], motion.detection.delta_dyn_deg[i], motion.signal.reliable[i] ? 1 : 0,
-                       pose.x_m, pose.y_m);
+    csv += fmt::format("{},{:.6f},{:.6f},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f},{:.6f}\n", i,
+                       walk.time_s[i], moved.value, unit, vo::name_of(moved.source),
+                       measured(tracked.orientation_deg), measured(tracked.shift_px), tracked.matches,
+                       gait.signal.heading_rad[i] * kDegrees, signal[i], gait.detection.delta_dyn_deg[i],
+                       gait.signal.reliable[i] ? 1 : 0, pose.x_m, pose.y_m, moved.sigma);
   }
   return csv;
 }
 
-std::string steps_csv(const vo::PedestrianMotion& motion) {
+std::string steps_csv(const vo::WalkMotion& motion) {
   std::string csv = "step,frame,time_s,leg,x_m,y_m,heading_deg,length_m,bridged\n";
-  for (std::size_t i = 0; i < motion.detection.steps.size(); ++i) {
-    const vo::Step& step = motion.detection.steps[i];
-    const vo::Pose2& pose = motion.trajectory.at_step[i];
+  const vo::PedestrianMotion& gait = *motion.pedestrian;
+  for (std::size_t i = 0; i < gait.detection.steps.size(); ++i) {
+    const vo::Step& step = gait.detection.steps[i];
+    const vo::Pose2& pose = motion.trajectory[step.frame].pose;
     csv += fmt::format("{},{},{:.6f},{},{:.6f},{:.6f},{:.6f},{:.6f},{}\n", i + 1, step.frame, step.time_s,
                        step.leg == vo::Leg::kLeft ? "left" : "right", pose.x_m, pose.y_m,
-                       pose.heading_rad * kDegrees, motion.step_length_m[i], step.bridged ? 1 : 0);
+                       gait.trajectory.at_step[i].heading_rad * kDegrees, gait.step_length_m[i],
+                       step.bridged ? 1 : 0);
   }
   return csv;
 }
@@ -89,10 +99,15 @@ std::string activity_csv(const vo::PedestrianMotion& motion) {
   return csv;
 }
 
-ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, double step_length_m) {
+ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double step_length_m) {
+  const vo::PedestrianMotion& motion = *walked.pedestrian;
   const bool by_shift = motion.step_signal == vo::StepSignal::kShift;
   double distance_m = 0;
-  for (const double moved_m : motion.displacement_m) distance_m += moved_m;
+  std::map<std::string, std::size_t> sources;
+  for (const vo::FrameDisplacement& frame : walked.frames) {
+    distance_m += frame.value;
+    if (frame.source != vo::DisplacementSource::kNone) ++sources[std::string(vo::name_of(frame.source))];
+  }
   ordered_json json{{"walk", walk.source},
                     {"frames", walk.frames()},
                     {"duration_s", walk.time_s.back()},
@@ -103,6 +118,7 @@ ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, d
                     {"frames_bridged", motion.signal.bridged},
                     {"step_length_m", step_length_m},
                     {"distance_m", distance_m},
+                    {"frames_by_source", sources},
                     {"delta_min", nullptr},
                     {"warnings", walk.warnings},
                     {"version", place::kVersion}};
@@ -115,17 +131,33 @@ ordered_json summary(const vo::Walk& walk, const vo::PedestrianMotion& motion, d
   return json;
 }
 
+/// By the source asked for; by steps alone where the others tell nothing, or give no metres.
+vo::WalkMotion walked_motion(const vo::Walk& walk, const Settings& settings) {
+  if (settings.sampling.sampling.motion == vo::MotionSource::kHybrid) {
+    try {
+      vo::WalkMotion motion = vo::walk_motion(walk, vo::MotionSource::kHybrid, settings.sampling.motion);
+      if (!motion.trajectory.empty()) return motion;
+    } catch (const vo::Error& error) {
+      spdlog::warn("{}; steps alone are used", error.what());
+    }
+  }
+  return vo::walk_motion(walk, vo::MotionSource::kSteps, settings.sampling.motion);
+}
+
 void odometry(const CLI::App& app, OdometryOptions& options) {
   Settings& settings = options.settings;
   vo::set_thread_count(settings.threads);
   resolve(app, settings);
   const fs::path folder = options.output;
-  prepare_run_directory(
-      folder, {"frames.csv", "steps.csv", "activity.csv", "trajectory.tum", "summary.json", "config.toml"},
-      options.common.force);
+  prepare_run_directory(folder,
+                        {"frames.csv", "steps.csv", "activity.csv", "trajectory.tum", "summary.json",
+                         "report.html", "config.toml", "visual_odometry.csv", "visual_odometry.tum"},
+                        options.common.force);
 
   settings.walk.preview_width_px = 0;
+  vo::keep_for(settings.sampling.sampling.motion, settings.walk);
   settings.walk.track_features = true;
+  settings.walk.visual_odometry = settings.walk.visual_odometry || options.visual_odometry;
   vo::Walk walk;
   {
     ProgressBar bar;
@@ -133,36 +165,41 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   vo::PedestrianMotionOptions& pedestrian = settings.sampling.motion.pedestrian;
-  vo::PedestrianMotion motion = vo::pedestrian_motion(walk, pedestrian);
   if (options.walk_length_m) {
-    if (motion.detection.steps.empty()) {
+    const std::size_t steps = vo::pedestrian_motion(walk, pedestrian).detection.steps.size();
+    if (steps == 0) {
       throw vo::Error(options.walk, "shows no steps", "a walk of the length given with --walk-length-m");
     }
-    pedestrian.step_length.length_m =
-        vo::calibrated_step_length_m(*options.walk_length_m, motion.detection.steps.size());
-    motion = vo::pedestrian_motion(walk, pedestrian);
+    pedestrian.step_length.length_m = vo::calibrated_step_length_m(*options.walk_length_m, steps);
   }
+  const vo::WalkMotion walked = walked_motion(walk, settings);
+  const vo::PedestrianMotion& motion = *walked.pedestrian;
 
-  const ordered_json json = summary(walk, motion, pedestrian.step_length.length_m);
-  vo::write_file(folder / "frames.csv", frames_csv(walk, motion));
-  vo::write_file(folder / "steps.csv", steps_csv(motion));
+  const ordered_json json = summary(walk, walked, pedestrian.step_length.length_m);
+  vo::write_file(folder / "frames.csv", frames_csv(walk, walked));
+  vo::write_file(folder / "steps.csv", steps_csv(walked));
   vo::write_file(folder / "activity.csv", activity_csv(motion));
-  vo::write_file(
-      folder / "trajectory.tum",
-      vo::to_tum(motion.trajectory.at_frame, "pose of each frame, metres and radians since the first"));
+  vo::write_file(folder / "trajectory.tum",
+                 vo::to_tum(walked.trajectory, "pose of each frame, metres and radians since the first"));
+  if (options.visual_odometry) write_visual_odometry(walk, folder);
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
+  vo::write_file(folder / "report.html", odometry_report(folder));
   if (options.common.json) {
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}: {} steps, {:.1f} m in {:.1f} s with steps of {:.3f} m; see {}\n", options.output,
-             motion.detection.steps.size(), json["distance_m"].get<double>(), walk.time_s.back(),
-             pedestrian.step_length.length_m, (folder / "steps.csv").string());
-  if (motion.detection.bridged + motion.signal.bridged > 0) {
-    fmt::print("bridged: {} of the steps, {} of {} frames with too few points\n", motion.detection.bridged,
-               motion.signal.bridged, walk.frames());
-  }
+  const auto row = [](std::string_view name, const std::string& value, const std::string& note) {
+    fmt::print("  {:<10}{:>10}   {}\n", name, value, note);
+  };
+  fmt::print("{}\n", walk.source);
+  row("steps", std::to_string(motion.detection.steps.size()),
+      fmt::format("{} of them bridged", motion.detection.bridged));
+  row("distance", fmt::format("{:.1f} m", json["distance_m"].get<double>()),
+      fmt::format("steps of {:.3f} m", pedestrian.step_length.length_m));
+  row("duration", fmt::format("{:.1f} s", walk.time_s.back()),
+      fmt::format("{} frames, {} with too few points", walk.frames(), motion.signal.bridged));
+  fmt::print("see {}\n", (folder / "report.html").string());
 }
 
 }  // namespace
@@ -175,6 +212,12 @@ Command add_odometry(CLI::App& root) {
   app->add_option("--walk-length-m", options->walk_length_m,
                   "metres, known length of this walk: measures the step length, for --step-length on others")
       ->check(CLI::PositiveNumber);
+  app->add_flag("--visual-odometry", options->visual_odometry,
+                "write visual_odometry.csv and .tum as well: the camera's way, with what it was lost by");
+  options->settings.sampling.sampling.motion = vo::MotionSource::kHybrid;
+  add_choice(*app, "Pedestrian odometry", "--motion", options->settings.sampling.sampling.motion,
+             {{"hybrid", vo::MotionSource::kHybrid}, {"steps", vo::MotionSource::kSteps}},
+             "displacement by steps and visual odometry [SSS 3.5], or by steps alone [PVO]");
   add_frame_options(*app, options->settings);
   add_odometry_options(*app, options->settings);
   add_general_options(*app, options->settings);

@@ -71,12 +71,23 @@ void add_sampling_options(CLI::App& app, Settings& s) {
               {"none", vo::MotionSource::kNone}},
              "what walks are resampled by: alignment error [SSS 3.2], steps [PVO], both and visual odometry "
              "[SSS 3.5], visual odometry alone, the trajectory of --motion-file, or nothing");
+  add(app, kSampling, "--motion-file", s.motion_file,
+      "trajectory for --motion file: TUM, KITTI, or CSV with time_s,x_m,y_m; metres")
+      ->check(CLI::ExistingFile);
+  add(app, kSampling, "--motion-file-start-s", s.external.start_s,
+      "seconds that the trajectory's clock shows at the first frame");
+  add(app, kSampling, "--motion-file-tolerance-s", s.external.time_tolerance_s,
+      "seconds that a lone pose may be away from its frame")
+      ->check(CLI::NonNegativeNumber);
+  add(app, kSampling, "--motion-file-gap-s", s.external.max_gap_s,
+      "seconds between poses beyond which the trajectory is lost; alignment error takes its place")
+      ->check(CLI::NonNegativeNumber);
   add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
       ->check(CLI::Range(1, 1000000));
   add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
       ->check(CLI::Range(0.01, 1000.0));
   add(app, kSampling, "--spacing-m", s.sampling.sampling.spacing_m,
-      "metres between keyframes, instead of SSS Eq. 4; with motion in metres (steps)")
+      "metres between keyframes, instead of SSS Eq. 4; with motion in metres (hybrid, steps)")
       ->check(CLI::PositiveNumber);
   add(app, kSampling, "--separations", s.sampling.motion.visual.model.separations,
       "frame separations compared for each frame's motion, 1 is SSS Eq. 3 to the letter")
@@ -185,6 +196,9 @@ void add_search_options(CLI::App& app, Settings& s) {
       "reference keyframes around a match that do not compete with it [SeqSLAM's Rwindow]")
       ->check(CLI::Range(0, 1000000));
   add(app, kSearch, "--accept-score", s.localiser.acceptance_threshold, "least score of an accepted match");
+  add(app, kSearch, "--correct-drift", s.correct_drift,
+      "true: follow the walk's steps too and correct their drift by the matches, where the route has poses")
+      ->default_str(s.correct_drift ? "true" : "false");
   add_choice(app, kSearch, "--compat", s.compatibility,
              {{"none", Compatibility::kNone},
               {"openseqslam", Compatibility::kOpenSeqSlam},
@@ -241,6 +255,21 @@ void follow_motion(Settings& settings) {
   vo::keep_for(settings.sampling.sampling.motion, settings.walk);
 }
 
+vo::Walk read_walk(const std::string& source, const Settings& settings,
+                   const vo::ProgressCallback& progress) {
+  const bool by_file = settings.sampling.sampling.motion == vo::MotionSource::kFile;
+  if (by_file == settings.motion_file.empty()) {
+    throw vo::Error("--motion-file", by_file ? "is missing" : "has no meaning without --motion file",
+                    "--motion file --motion-file TRAJECTORY");
+  }
+  vo::Walk walk = vo::read_walk(source, settings.walk, progress);
+  if (by_file) {
+    walk.track =
+        vo::external_trajectory(vo::read_pose_series(settings.motion_file), walk.time_s, settings.external);
+  }
+  return walk;
+}
+
 void resolve(const CLI::App& app, Settings& settings) {
   place::SequenceSearchOptions& search = settings.localiser.search;
   if (settings.compatibility != Compatibility::kNone) {
@@ -265,9 +294,12 @@ void resolve(const CLI::App& app, Settings& settings) {
     throw vo::Error("--every", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "--motion none --every K");
   }
-  if (sampling.spacing_m && sampling.motion != vo::MotionSource::kSteps) {
+  const bool may_be_metric = sampling.motion == vo::MotionSource::kSteps ||
+                             sampling.motion == vo::MotionSource::kHybrid ||
+                             sampling.motion == vo::MotionSource::kFile;
+  if (sampling.spacing_m && !may_be_metric) {
     throw vo::Error("--spacing-m", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
-                    "motion in metres: --motion steps");
+                    "motion in metres: --motion hybrid or steps");
   }
   if (2 * settings.localiser.cost.max_shift_px >= settings.walk.thumbnail.width) {
     throw vo::Error("--max-shift-px", fmt::format("is {}", settings.localiser.cost.max_shift_px),
@@ -275,6 +307,8 @@ void resolve(const CLI::App& app, Settings& settings) {
   }
   follow_motion(settings);
   if (!settings.camera.empty()) settings.walk.tracker.camera = vo::read_camera_calibration(settings.camera);
+  settings.walk.vo.fov_deg = settings.walk.tracker.fov_deg;
+  settings.walk.vo.camera = settings.walk.tracker.camera;
 }
 
 }  // namespace retrace

@@ -76,6 +76,11 @@ void add_walk_options(CLI::App& app, simulate::Options& walk) {
   add(app, kWalker, "--detour-m", walk.detour_m, "metres walked in all into a side street, and back");
   add(app, kWalker, "--start-m", walk.start_m, "metres along the route where the walk begins");
   add(app, kWalker, "--people", walk.people, "passers-by met");
+  add(app, kCamera, "--failures", walk.failures,
+      "stretches, spread evenly, in which the camera tells nothing of its motion: by turns black, out of "
+      "focus, "
+      "turned aside and back, before a blank wall [SSS Fig. 9]");
+  add(app, kCamera, "--failure-s", walk.failure_s, "seconds that each lasts");
   add(app, kCamera, "--fov-deg", walk.fov_deg, "degrees from left to right [PVO 5.3]");
   add(app, kCamera, "--frame-rate-hz", walk.frame_rate_hz, "frames per second [PVO 5.1]");
   add(app, kCamera, "--width", walk.size.width, "pixels [PVO 5.1]");

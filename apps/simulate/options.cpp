@@ -29,6 +29,8 @@ void validate(const Options& options) {
   check("people", options.people, 0, 1000, "");
   check("detour-m", options.detour_m, 0, kMaxDetour_m, "m");
   check("start-m", options.start_m, 0, options.length_m - 1, "m");
+  check("failures", options.failures, 0, 100, "");
+  check("failure-s", options.failure_s, 0.04, 60, "s");
   check("swing", options.swing, 0, 3, "");
   check("size", options.size.width, 16, 7680, "px wide");
   check("size", options.size.height, 16, 4320, "px high");

@@ -22,6 +22,8 @@ struct Options {
   int people = 0;               ///< passers-by met along the route
   double detour_m = 0;          ///< walked in all into a side street about half-way, and back; 0: none
   double start_m = 0;           ///< where on the route the walk begins
+  int failures = 0;             ///< stretches in which the camera sees nothing that tells its motion
+  double failure_s = 3;         ///< how long each is
   double swing = 1;             ///< scale of the camera's swing with the gait; 0 is a stabilised camera
   cv::Size size{640, 360};      ///< PVO 5.1
   double frame_rate_hz = 25;    ///< PVO 5.1

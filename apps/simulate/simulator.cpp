@@ -59,6 +59,7 @@ WalkSimulator::WalkSimulator(const Options& options)
       walker_(draw_walker(options.gait_seed)),
       timetable_(options.speed, path_.walked_m(), walker_, options.gait_seed),
       world_(build_world(options, route_)),
+      failures_(spread_failures(options.failures, options.failure_s, timetable_.duration_s())),
       exposure_(exposure_for(options.condition)),
       frame_count_(1 + static_cast<int>(timetable_.duration_s() * options.frame_rate_hz)) {
   const double room_m = options.scene == Scene::kStreet ? 1.8 : 0.8;
@@ -84,13 +85,15 @@ WalkSimulator::Body WalkSimulator::body_at(double time_s) const {
 Camera WalkSimulator::camera_at(double time_s) const {
   const Body body = body_at(time_s);
   const Swing swing = swing_at(walker_, body.entry.steps, body.entry.speed_mps, time_s);
+  const std::optional<Failure> failure = failure_at(failures_, time_s);
+  const double pan = failure ? pan_rad(*failure, time_s) : 0;
   const double s = options_.swing;
   const vo::Pose2 chest = moved_right(body.pose, s * swing.right_m);
   Camera camera;
   camera.size = options_.size;
   camera.focal_px = options_.size.width / (2 * std::tan(options_.fov_deg * kDegree / 2));
   camera.world_from_camera.linear() =
-      camera_axes(chest.heading_rad + s * swing.yaw_rad, walker_.mount_pitch_rad + s * swing.pitch_rad,
+      camera_axes(chest.heading_rad + pan + s * swing.yaw_rad, walker_.mount_pitch_rad + s * swing.pitch_rad,
                   walker_.mount_roll_rad + s * swing.roll_rad);
   camera.world_from_camera.translation() << chest.x_m, chest.y_m, walker_.camera_height_m + s * swing.up_m;
   return camera;
@@ -136,6 +139,7 @@ cv::Mat WalkSimulator::render(int frame) const {
   if (options_.condition == Condition::kRain && options_.scene == Scene::kStreet) {
     add_raindrops(image, options_.size.area() / 1500, seed);
   }
+  if (const std::optional<Failure> failure = failure_at(failures_, middle_s)) spoil(image, failure->kind);
   add_noise(image, exposure_.noise, seed);
   return image;
 }

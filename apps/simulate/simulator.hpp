@@ -1,5 +1,6 @@
 #pragma once
 
+#include "failure.hpp"
 #include "gait.hpp"
 #include "options.hpp"
 #include "people.hpp"
@@ -38,6 +39,7 @@ class WalkSimulator {
   /// Puts something more into the world, as it is, such as a target to be found again.
   void place(const Surface& surface) { world_.surfaces.push_back(surface); }
   [[nodiscard]] int frame_count() const { return frame_count_; }
+  [[nodiscard]] const std::vector<Failure>& failures() const { return failures_; }
 
   /// Frames are 0 to frame_count() - 1; others throw `std::out_of_range`.
   [[nodiscard]] TruthRow truth(int frame) const;
@@ -63,6 +65,7 @@ class WalkSimulator {
   Timetable timetable_;
   World world_;
   std::vector<Passer> people_;
+  std::vector<Failure> failures_;
   Exposure exposure_;
   int frame_count_;
 };

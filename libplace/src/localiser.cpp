@@ -141,6 +141,15 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
       walk.source, model.separation.back())};
 }
 
+/// Where one walk is in metres and the other is not (steps were seen in one of them only), both are taken to
+/// have been walked at one mean speed; `relative_scale` mends what is left.
+void to_mean_speed(const Traverse& reference, double duration_s, std::vector<double>& displacement) {
+  const double there = reference.keyframes.back().displacement / reference.duration_s;
+  const double here = std::accumulate(displacement.begin(), displacement.end(), 0.0) / duration_s;
+  if (!(there > 0 && here > 0)) return;
+  for (double& step : displacement) step *= there / here;
+}
+
 Place place_of(const Traverse& traverse, std::size_t keyframe) {
   const Keyframe& k = traverse.keyframes[keyframe];
   return {.traverse = traverse.name,
@@ -165,8 +174,15 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
   vo::WalkMotionOptions motion_options = options.motion;
   motion_options.visual.patch = route.patch;
   vo::WalkMotion motion = vo::walk_motion(walk, sampling.motion, motion_options);
+  if (sampling.motion == vo::MotionSource::kSteps && motion.pedestrian->detection.steps.empty())
+    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
+  if (sampling.spacing_m && !motion.metric)
+    throw vo::Error(walk.source, "shows no steps, so its motion is not in metres",
+                    "no --spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
+  if (reference != nullptr && motion.metric != route.sampling.metric)
+    to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
   if (motion.visual) {
     sampled.motion_model = std::move(motion.visual->model);
     sampled.warnings = motion_warnings(walk, sampled.motion_model);
@@ -199,6 +215,7 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
   traverse.frame_width_px = walk.frame_width_px;
   traverse.frame_height_px = walk.frame_height_px;
   if (survey) traverse.pose_source = survey->source;
+  if (survey) traverse.surveyed = survey->surveyed;
   traverse.motion_model = sampled.motion_model;
   traverse.thumbnails = sampled.thumbnails;
   double travelled = 0;
@@ -254,6 +271,38 @@ Localisation localise(const Route& route, const vo::Walk& walk, const SampledWal
     SequenceSearchOptions search = options.search;
     search.length = result.sequence_length;
     result.lines = static_cast<int>(search_lines(search).size());
+  }
+  return result;
+}
+
+RouteFixes pose_fixes(const Route& route, const std::vector<Match>& matches) {
+  const auto index_of = [&](const Match& match) {
+    return static_cast<std::size_t>(
+        std::ranges::find(route.traverses, match.place->traverse, &Traverse::name) - route.traverses.begin());
+  };
+  const auto says_where = [](const Match& match) {
+    return match.accepted && match.place && match.place->pose;
+  };
+  std::vector<std::size_t> count(route.traverses.size(), 0);
+  for (const Match& match : matches)
+    if (says_where(match)) ++count[index_of(match)];
+
+  // Of surveyed traverses, and then of all, the one with most.
+  RouteFixes result;
+  for (const bool surveyed : {true, false}) {
+    for (std::size_t i = 0; i < count.size(); ++i) {
+      if (count[i] == 0 || route.traverses[i].surveyed != surveyed) continue;
+      if (!result.traverse || count[i] > count[*result.traverse]) result.traverse = i;
+    }
+    if (result.traverse) break;
+  }
+  if (!result.traverse) return result;
+  const bool surveyed = route.traverses[*result.traverse].surveyed;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!says_where(matches[i])) continue;
+    const std::size_t on = index_of(matches[i]);
+    if (surveyed ? route.traverses[on].surveyed : on == *result.traverse)
+      result.fixes.push_back({.node = i, .pose = *matches[i].place->pose, .score = matches[i].score});
   }
   return result;
 }

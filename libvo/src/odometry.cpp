@@ -41,8 +41,14 @@ std::vector<Frame> read_batch(FrameSource& frames, std::size_t count) {
   return batch;
 }
 
+/// What follows a walk from frame to frame.
+struct Trackers {
+  FeatureTracker features;
+  MonocularVo visual_odometry;
+};
+
 /// What is kept of a batch of frames, worked out in parallel.
-void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTracker& tracker, Walk& walk) {
+void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers& trackers, Walk& walk) {
   const std::size_t begin = walk.frames();
   walk.thumbnails.pixels.resize((begin + batch.size()) * walk.thumbnails.image_size());
   if (options.preview_width_px > 0) walk.previews.resize(begin + batch.size());
@@ -54,42 +60,54 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, FeatureTr
     if (options.preview_width_px > 0)
       walk.previews[begin + i] = preview_of(batch[i].image, options.preview_width_px);
   });
-  if (!options.track_features) return;
   std::vector<cv::Mat> images;
   for (const Frame& frame : batch) images.push_back(frame.image);
-  std::ranges::move(tracker.push(images), std::back_inserter(walk.tracked));
+  parallel_invoke(
+      [&] {
+        if (!options.visual_odometry) return;
+        for (const Frame& frame : batch) trackers.visual_odometry.push(frame.image, frame.time_s);
+      },
+      [&] {
+        if (!options.track_features) return;
+        std::ranges::move(trackers.features.push(images), std::back_inserter(walk.tracked));
+      });
 }
 
 }  // namespace
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
+  return read_walk(*open_frame_source(source, options.frames), source, options, progress);
+}
+
+Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options,
+               const ProgressCallback& progress) {
   if (options.preview_width_px < 0) throw std::invalid_argument("read_walk: preview_width_px must be >= 0");
-  const std::unique_ptr<FrameSource> frames = open_frame_source(source, options.frames);
-  const std::string stage = fmt::format("reading {}", source);
+  const std::string stage = fmt::format("reading {}", name);
   Walk walk;
-  walk.source = source;
-  FeatureTracker tracker(options.tracker);
+  walk.source = name;
+  Trackers trackers{FeatureTracker(options.tracker), MonocularVo(options.vo)};
   walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
 
   // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
   // work, little enough for 4K video.
   const std::size_t batch_size = 4 * static_cast<std::size_t>(thread_count());
-  std::vector<Frame> batch = read_batch(*frames, batch_size);
+  std::vector<Frame> batch = read_batch(frames, batch_size);
   while (!batch.empty()) {
     std::vector<Frame> next;
-    parallel_invoke([&] { next = read_batch(*frames, batch_size); },
-                    [&] { keep(batch, options, tracker, walk); });
+    parallel_invoke([&] { next = read_batch(frames, batch_size); },
+                    [&] { keep(batch, options, trackers, walk); });
     batch = std::move(next);
     if (progress && !progress({.stage = stage,
                                .done = static_cast<std::int64_t>(walk.frames()),
-                               .total = frames->expected_frames()})) {
+                               .total = frames.expected_frames()})) {
       break;
     }
   }
   if (walk.frames() < 2) {
-    throw Error(source, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
+    throw Error(name, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }
-  walk.warnings = frames->warnings();
+  if (options.visual_odometry) walk.track = trackers.visual_odometry.finish();
+  walk.warnings = frames.warnings();
   return walk;
 }
 

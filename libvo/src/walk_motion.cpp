@@ -1,6 +1,5 @@
 #include "vo/walk_motion.hpp"
 
-#include "vo/base/error.hpp"
 #include "vo/gait/lowpass.hpp"
 
 #include <stdexcept>
@@ -32,9 +31,8 @@ WalkMotion by_track_alone(const DisplacementTrack& track) {
 WalkMotion by_steps(const Walk& walk, const PedestrianMotionOptions& options) {
   WalkMotion motion;
   motion.pedestrian = pedestrian_motion(walk, options);
-  if (motion.pedestrian->detection.steps.empty())
-    throw Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
   motion.metric = true;
+  motion.trajectory = motion.pedestrian->trajectory.at_frame;
   motion.frames = from_one(motion.pedestrian->displacement_m, DisplacementSource::kSteps, kUsualStepsError);
   return motion;
 }
@@ -72,6 +70,9 @@ WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& op
   HybridMotion hybrid = hybrid_motion(evidence, options.hybrid);
   motion.frames = std::move(hybrid.frames);
   motion.metric = hybrid.metric;
+  if (motion.metric && motion.pedestrian)
+    motion.trajectory =
+        dead_reckon(displacements(motion), motion.pedestrian->signal.heading_rad, walk.time_s);
   return motion;
 }
 

@@ -23,6 +23,11 @@ cv::Mat shrunk(const place::CostMatrix& matrix, std::size_t shrink) {
   return picture;
 }
 
+std::size_t shrink_to(const place::CostMatrix& matrix, int side_px) {
+  const std::size_t longer = std::max({matrix.queries, matrix.references, std::size_t{1}});
+  return (longer + static_cast<std::size_t>(side_px) - 1) / static_cast<std::size_t>(side_px);
+}
+
 /// Grey from the 1st to the 99th percentile of the costs.
 cv::Mat as_grey(const cv::Mat& costs) {
   std::vector<float> sorted(costs.begin<float>(), costs.end<float>());
@@ -36,14 +41,19 @@ cv::Mat as_grey(const cv::Mat& costs) {
   return grey;
 }
 
+std::vector<std::uint8_t> as_png(const cv::Mat& picture) {
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", picture, png);
+  return png;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
                                          const std::vector<place::Match>& matches,
                                          const std::string& traverse, int side_px, std::size_t cell) {
   const std::size_t longer = std::max({enhanced.queries, enhanced.references, std::size_t{1}});
-  const std::size_t shrink =
-      (longer + static_cast<std::size_t>(side_px) - 1) / static_cast<std::size_t>(side_px);
+  const std::size_t shrink = shrink_to(enhanced, side_px);
   const int enlarge = std::max(1, side_px / static_cast<int>((longer + shrink - 1) / shrink));
   cv::Mat picture;
   cv::resize(as_grey(shrunk(enhanced, shrink)), picture, {}, enlarge, enlarge, cv::INTER_NEAREST);
@@ -60,9 +70,13 @@ std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
     if (match.accepted) cv::circle(picture, centre, 3, orange, cv::FILLED, cv::LINE_AA);
     if (!match.accepted) cv::circle(picture, centre, 3, blue, 1, cv::LINE_AA);
   }
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", picture, png);
-  return png;
+  return as_png(picture);
+}
+
+std::vector<std::uint8_t> cost_picture(const place::CostMatrix& costs, int side_px) {
+  constexpr int kStep = 8;  // of grey: a finer picture of noise is a much larger file, and looks the same
+  const cv::Mat grey = as_grey(shrunk(costs, shrink_to(costs, side_px)));
+  return as_png(grey / kStep * kStep);
 }
 
 }  // namespace retrace

@@ -17,4 +17,7 @@ std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
                                          const std::string& traverse, int side_px = 900,
                                          std::size_t cell = 1);
 
+/// A PNG of a cost matrix alone, a pixel for a cell, the same way round; large ones shrunk likewise.
+std::vector<std::uint8_t> cost_picture(const place::CostMatrix& costs, int side_px = 1000);
+
 }  // namespace retrace

@@ -2,6 +2,7 @@
 
 #include "place/candidates.hpp"
 #include "place/contrast_enhancement.hpp"
+#include "place/drift_correction.hpp"
 #include "place/match.hpp"
 #include "place/openseqslam.hpp"
 #include "place/relative_scale.hpp"
@@ -34,7 +35,7 @@ struct SampledWalk {
       displacement;              ///< of every frame of the walk since the one before; empty without motion
   vo::ImageStack thumbnails;     ///< of the keyframes
   vo::MotionModel motion_model;  ///< of alignment error, learned on the walk; nothing in it without
-  bool metric = false;           ///< the displacement is in metres
+  bool metric = false;           ///< the displacement came in metres
   double scale = 1;              ///< the displacement was multiplied by this to fit the route's
   double unit = 0;               ///< displacement between keyframes (SSS Eq. 4); 0 without motion
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
@@ -46,9 +47,11 @@ struct SampledWalk {
 SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
                         const WalkSamplingOptions& options);
 
-/// What poses and distances a walk's frames have, where they were surveyed.
+/// What poses and distances a walk's frames have, where they were surveyed (or its odometry, without
+/// distances).
 struct Survey {
   std::string source;                             ///< the file's name
+  bool surveyed = true;                           ///< false: the walk's own odometry
   std::vector<std::optional<vo::Pose2>> pose;     ///< by frame
   std::vector<std::optional<double>> distance_m;  ///< by frame
 };
@@ -103,5 +106,15 @@ struct Localisation {
 /// metres asks for them.
 Localisation localise(const Route& route, const vo::Walk& walk, const SampledWalk& sampled,
                       const LocaliserOptions& options);
+
+/// Where accepted matches put a walk, for `correct_drift`, whose nodes are the query keyframes.
+struct RouteFixes {
+  std::vector<PoseFix> fixes;
+  std::optional<std::size_t> traverse;  ///< the one that most of them are on; none without fixes
+};
+
+/// Poses of different surveys share their coordinates, but two walks' own odometry does not: fixes are on
+/// surveyed traverses if any match is, else on the one that most matches are on. O(matches + traverses).
+RouteFixes pose_fixes(const Route& route, const std::vector<Match>& matches);
 
 }  // namespace place

@@ -14,6 +14,7 @@
 #include "vo/io/frame_source.hpp"
 #include "vo/motion/alignment_error.hpp"
 #include "vo/motion/displacement_track.hpp"
+#include "vo/motion/monocular_vo.hpp"
 #include "vo/motion/motion_model.hpp"
 #include "vo/motion/standing.hpp"
 
@@ -34,6 +35,7 @@ struct WalkOptions {
   bool track_features = false;   ///< SURF points are followed, for `pedestrian_motion`
   bool visual_odometry = false;  ///< monocular visual odometry gives `Walk::track`
   FeatureTrackerOptions tracker;
+  MonocularVoOptions vo;
 };
 
 /// What one pass over a recording kept: about 2 kB a frame, 3 kB more with previews, 100 bytes with tracked
@@ -57,6 +59,10 @@ struct Walk {
 /// fewer than two frames. Stops early, with what it has, when `progress` returns false. Reading is serial,
 /// and goes on while the frames before are worked on in parallel.
 Walk read_walk(const std::string& source, const WalkOptions& options = {},
+               const ProgressCallback& progress = {});
+
+/// The same of frames from anywhere; `name` stands for them in messages.
+Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options = {},
                const ProgressCallback& progress = {});
 
 /// Settings of `visual_motion`.

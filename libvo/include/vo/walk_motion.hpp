@@ -22,6 +22,7 @@ struct WalkMotion {
   bool metric = false;                         ///< metres; otherwise frames at mean walking speed
   std::optional<VisualMotion> visual;          ///< where alignment error was asked for
   std::optional<PedestrianMotion> pedestrian;  ///< where steps were asked for
+  Trajectory trajectory;  ///< from (0, 0), heading 0; empty unless metres and headings are known
 };
 
 /// Has `read_walk` keep what `walk_motion` needs for a source.
@@ -34,7 +35,8 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// nothing where it is lost, each segment in a unit of its own.
 ///
 /// Throws `std::invalid_argument` for `kNone`, or a walk that was not read with what the source needs;
-/// `vo::Error` naming a walk that shows no motion to learn from, or no steps where they were asked for.
+/// `vo::Error` naming a walk that shows no motion to learn from. A walk without steps has, by `kSteps`,
+/// displacements of 0.
 WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options = {});
 
 /// The values alone, as the sampler takes them.

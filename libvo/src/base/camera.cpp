@@ -1,9 +1,12 @@
 #include "vo/base/camera.hpp"
 
+#include "vo/base/error.hpp"
+
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 
 namespace vo {
@@ -18,6 +21,17 @@ Camera camera_from_fov(int width_px, int height_px, double fov_deg) {
   camera.cx_px = (width_px - 1) / 2.0;
   camera.cy_px = (height_px - 1) / 2.0;
   return camera;
+}
+
+Camera camera_of_recording(const std::optional<Camera>& calibrated, int width_px, int height_px,
+                           double fov_deg) {
+  if (!calibrated) return camera_from_fov(width_px, height_px, fov_deg);
+  if (calibrated->width_px != width_px || calibrated->height_px != height_px) {
+    throw Error("camera calibration",
+                fmt::format("is of {}x{} pixels", calibrated->width_px, calibrated->height_px),
+                fmt::format("{}x{}, as the recording", width_px, height_px));
+  }
+  return *calibrated;
 }
 
 Camera resized(const Camera& camera, int width_px) {

@@ -61,18 +61,24 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
   std::vector<double> displacement_m(time_s.size(), 0);
   const std::vector<double> done_s = even_times_s(steps, options.pause_s);
   const std::vector<double> duration_s = durations_s(done_s, options.pause_s);
-  double before_s = time_s.empty() ? 0 : time_s.front();  // the end of the step before
-  std::size_t frame = 1;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double end_s = std::clamp(done_s[i], before_s, time_s.back());
-    const double begin_s = std::max(end_s - duration_s[i], before_s);
-    const double metres_per_s = lengths_m[i] / (end_s - begin_s);
-    for (; frame < time_s.size() && time_s[frame - 1] < end_s; ++frame) {
-      const double shared_s = std::min(time_s[frame], end_s) - std::max(time_s[frame - 1], begin_s);
-      if (shared_s > 0) displacement_m[frame] += metres_per_s * shared_s;
-      if (time_s[frame] > end_s) break;  // the next step begins within this frame
+  double whole_m = 0, before_m = 0;                       // of the steps done; up to the frame before
+  double before_s = time_s.empty() ? 0 : time_s.front();  // when the step before was done
+  std::size_t step = 0;
+  for (std::size_t frame = 1; frame < time_s.size(); ++frame) {
+    double way_m = whole_m;
+    for (; step < steps.size(); ++step) {
+      const double end_s = std::clamp(done_s[step], before_s, time_s.back());
+      const double begin_s = std::clamp(end_s - duration_s[step], before_s, end_s);
+      if (end_s > time_s[frame]) {
+        const double share = (time_s[frame] - begin_s) / (end_s - begin_s);
+        way_m = whole_m + std::max(0.0, share) * lengths_m[step];
+        break;
+      }
+      way_m = whole_m += lengths_m[step];
+      before_s = end_s;
     }
-    before_s = end_s;
+    displacement_m[frame] = way_m - before_m;
+    before_m = way_m;
   }
   return displacement_m;
 }
@@ -102,6 +108,20 @@ DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> l
   }
   while (frame < time_s.size()) go_on(0, 0);
   return walk;
+}
+
+Trajectory dead_reckon(std::span<const double> displacement_m, std::span<const double> heading_rad,
+                       std::span<const double> time_s) {
+  if (displacement_m.size() != time_s.size() || heading_rad.size() != time_s.size())
+    throw std::invalid_argument("dead_reckon: one displacement and one heading per frame expected");
+  Trajectory trajectory;
+  double x_m = 0, y_m = 0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    x_m += displacement_m[i] * std::sin(heading_rad[i]);
+    y_m += displacement_m[i] * std::cos(heading_rad[i]);
+    trajectory.push_back({time_s[i], {x_m, y_m, wrap_angle_rad(heading_rad[i])}});
+  }
+  return trajectory;
 }
 
 }  // namespace vo

@@ -1,40 +1,12 @@
 #include "vo/gait/feature_tracker.hpp"
 
-#include "vo/base/error.hpp"
 #include "vo/base/parallel.hpp"
+#include "vo/image/grey.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
-
 namespace vo {
-namespace {
-
-cv::Mat grey_of(const cv::Mat& frame, int width_px) {
-  cv::Mat grey = frame;
-  if (frame.channels() == 3) cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
-  if (grey.cols <= width_px) return grey;
-  cv::Mat small;
-  const int height_px = static_cast<int>(std::lround(static_cast<double>(grey.rows) * width_px / grey.cols));
-  cv::resize(grey, small, {width_px, std::max(1, height_px)}, 0, 0, cv::INTER_AREA);
-  return small;
-}
-
-Camera camera_of(const cv::Mat& frame, const FeatureTrackerOptions& options) {
-  if (!options.camera) return camera_from_fov(frame.cols, frame.rows, options.fov_deg);
-  if (options.camera->width_px != frame.cols || options.camera->height_px != frame.rows) {
-    throw Error("camera calibration",
-                fmt::format("is of {}x{} pixels", options.camera->width_px, options.camera->height_px),
-                fmt::format("{}x{}, as the recording", frame.cols, frame.rows));
-  }
-  return *options.camera;
-}
-
-}  // namespace
-
 FeatureTracker::FeatureTracker(const FeatureTrackerOptions& options)
     : options_(options), window_(options.window) {
   if (options.width_px < 1) throw std::invalid_argument("FeatureTracker: width_px must be >= 1");
@@ -46,8 +18,11 @@ FeatureTracker::FeatureTracker(const FeatureTrackerOptions& options)
 
 std::vector<FrameMotion> FeatureTracker::push(std::span<const cv::Mat> frames) {
   if (frames.empty()) return {};
-  if (!camera_)
-    camera_ = resized(camera_of(frames.front(), options_), std::min(frames.front().cols, options_.width_px));
+  if (!camera_) {
+    const cv::Size size = frames.front().size();
+    const Camera camera = camera_of_recording(options_.camera, size.width, size.height, options_.fov_deg);
+    camera_ = resized(camera, std::min(size.width, options_.width_px));
+  }
 
   std::vector<Features> features(frames.size());
   parallel_for(frames.size(), [&](std::size_t i) {

@@ -61,6 +61,16 @@ TEST(StepDisplacement, OfALoneStepTakesHalfASecond) {
               ElementsAre(0, 0.5, 0.5, 0));
 }
 
+TEST(StepDisplacement, IsEvenWhereTheExtremaLimp) {
+  // Left steps are seen 2 frames early of the 8 between steps: intervals of 6 and 10 frames by turns.
+  std::vector<vo::Step> steps = steps_at({10, 16, 26, 32, 42, 48, 58});
+  for (std::size_t i = 1; i < steps.size(); i += 2) steps[i].leg = vo::Leg::kRight;
+  const auto metres = vo::step_displacement_m(steps, std::vector<double>(7, 0.8), times(64));
+  // Evened out, there is a step at 11, 15 + ... every 8 frames: left ones a frame later, right ones earlier.
+  for (std::size_t i = 12; i <= 57; ++i) EXPECT_NEAR(metres[i], 0.1, 1e-12) << i;  // rounding
+  EXPECT_NEAR(std::accumulate(metres.begin(), metres.end(), 0.0), 7 * 0.8, 1e-12);
+}
+
 TEST(StepDisplacement, SumsUpToTheLengths) {
   vo::Rng rng(5);
   for (int round = 0; round < 20; ++round) {
@@ -72,7 +82,10 @@ TEST(StepDisplacement, SumsUpToTheLengths) {
     }
     while (time_s.size() < 500) time_s.push_back(time_s.back() + rng.uniform(0.01, 0.1));
     auto steps = steps_at(frames);
-    for (vo::Step& step : steps) step.time_s = time_s[step.frame];
+    for (vo::Step& step : steps) {
+      step.time_s = time_s[step.frame];
+      step.leg = rng.index(2) == 0 ? vo::Leg::kLeft : vo::Leg::kRight;
+    }
     const auto metres = vo::step_displacement_m(steps, lengths, time_s);
     EXPECT_THAT(metres, Each(testing::Ge(0)));
     EXPECT_NEAR(std::accumulate(metres.begin(), metres.end(), 0.0),
@@ -161,6 +174,22 @@ TEST(DeadReckon, RefusesWhatDoesNotFit) {
   EXPECT_THROW(vo::dead_reckon(steps_at({10}), one, heading, times(10)), std::invalid_argument);
   EXPECT_THROW(vo::dead_reckon(steps_at({0}), one, heading, times(10)), std::invalid_argument);
   EXPECT_THROW(vo::dead_reckon(steps_at({5, 5}), std::vector<double>{1, 1}, heading, times(10)),
+               std::invalid_argument);
+}
+
+TEST(DeadReckonDisplacement, GoesWhereItLooksByHand) {
+  const auto walk =
+      vo::dead_reckon(std::vector<double>{0, 2, 3, 1}, std::vector<double>{0, 0, kPi / 2, 3 * kPi}, times(4));
+  ASSERT_EQ(walk.size(), 4U);
+  EXPECT_EQ(walk[0].pose.x_m, 0);
+  EXPECT_NEAR(walk[1].pose.y_m, 2, 1e-12);  // rounding
+  EXPECT_NEAR(walk[2].pose.x_m, 3, 1e-12);
+  EXPECT_NEAR(walk[3].pose.y_m, 1, 1e-12);
+  EXPECT_NEAR(std::abs(walk[3].pose.heading_rad), kPi, 1e-12);
+  EXPECT_EQ(walk[3].time_s, 0.375);
+  EXPECT_THAT(vo::dead_reckon(std::vector<double>{}, std::vector<double>{}, std::vector<double>{}),
+              IsEmpty());
+  EXPECT_THROW(vo::dead_reckon(std::vector<double>{0}, std::vector<double>{}, std::vector<double>{0}),
                std::invalid_argument);
 }
 

@@ -162,4 +162,16 @@ TEST(PatchNormalise, RefusesSizesThatDoNotFit) {
   EXPECT_TRUE(vo::patch_normalise(vo::ImageStack{.width = 64, .height = 32, .pixels = {}}, {}).empty());
 }
 
+TEST(PatchContrast, IsTheMedianDeviationOfTheCells) {
+  // Four cells of 2x2 each: flat, 0/10 (deviation 5), 0/20 (10), 0/40 (20); the upper of the middle two.
+  vo::ImageStack images{.width = 8,
+                        .height = 2,
+                        .pixels = {9, 9, 0, 10, 0, 20, 0, 40,  //
+                                   9, 9, 0, 10, 0, 20, 0, 40}};
+  images.pixels.resize(32, 3);  // and a flat image
+  EXPECT_THAT(vo::patch_contrast(images, 2), testing::ElementsAre(10, 0));
+  EXPECT_THAT(vo::patch_contrast({.width = 8, .height = 8, .pixels = {}}, 8), testing::IsEmpty());
+  EXPECT_THROW(vo::patch_contrast(images, 1), std::invalid_argument);
+}
+
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace vo {
@@ -18,6 +19,10 @@ struct Camera {
 /// The undistorted camera of a horizontal field of view, square pixels, principal point in the middle (PVO
 /// 5.3(6)). Throws `std::invalid_argument` unless the size is positive and the angle in [10, 170] degrees.
 Camera camera_from_fov(int width_px, int height_px, double fov_deg);
+
+/// The calibrated camera, which must be of that size (`vo::Error`); without one, that of the field of view.
+Camera camera_of_recording(const std::optional<Camera>& calibrated, int width_px, int height_px,
+                           double fov_deg);
 
 /// The same camera, its images resized to `width_px` columns.
 Camera resized(const Camera& camera, int width_px);

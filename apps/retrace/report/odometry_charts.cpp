@@ -1,0 +1,349 @@
+#include "odometry_charts.hpp"
+
+#include "report/page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <vo/base/error.hpp>
+#include <vo/io/csv.hpp>
+#include <vo/io/trajectory_io.hpp>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
+  std::vector<double> numbers;
+  for (const std::optional<double>& value : values) numbers.push_back(value.value_or(NAN));
+  return numbers;
+}
+
+/// Where consecutive elements that satisfy `shaded` begin and end in time.
+template <typename Shaded>
+std::vector<std::pair<double, double>> spans(const std::vector<double>& time_s, Shaded shaded) {
+  std::vector<std::pair<double, double>> found;
+  bool open = false;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (shaded(i) && !open) found.emplace_back(time_s[i], time_s[i]);
+    open = shaded(i);
+    // Up to where the next begins, so that neighbours touch.
+    if (open) found.back().second = time_s[std::min(i + 1, time_s.size() - 1)];
+  }
+  return found;
+}
+
+Band unreliable(const OdometryView& walk) {
+  const auto& frames = walk.frames;
+  auto shaded = spans(frames.time_s, [&](std::size_t i) { return i > 0 && frames.reliable[i] == 0; });
+  return {.name = "too few matches, bridged", .colour = "ochre", .spans = std::move(shaded)};
+}
+
+/// A threshold above and, for the other leg, below 0.
+Series threshold_lines(const OdometryView& walk, std::string name, const std::vector<double>& values,
+                       std::vector<int> dash) {
+  Series series{.name = std::move(name), .colour = "green", .dash = std::move(dash), .width_px = 1.2};
+  for (const double sign : {1.0, -1.0}) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      series.x.push_back(walk.frames.time_s[i]);
+      series.y.push_back(sign * values[i]);
+    }
+    series.x.push_back(walk.frames.time_s.back());
+    series.y.push_back(NAN);
+  }
+  return series;
+}
+
+Series step_series(const OdometryView& walk, const std::string& leg, bool bridged) {
+  Series series{.name = leg + (bridged ? " step, bridged" : " step"),
+                .colour = leg == "left" ? "orange" : "purple",
+                .line = false,
+                .mark = leg == "left" ? "triangle" : "diamond",
+                .hollow = bridged,
+                .size_px = 6};
+  const auto& steps = walk.steps;
+  for (std::size_t i = 0; i < steps.time_s.size(); ++i) {
+    if (steps.leg[i] != leg || (steps.bridged[i] != 0) != bridged) continue;
+    series.x.push_back(steps.time_s[i]);
+    const auto frame = static_cast<std::size_t>(steps.frame[i]);
+    series.y.push_back(frame < walk.frames.signal.size() ? walk.frames.signal[frame] : 0);
+    series.notes.push_back(fmt::format("step {}", i + 1));
+  }
+  return series;
+}
+
+/// Headings without jumps by whole turns.
+std::vector<double> unwrapped_deg(const vo::Trajectory& trajectory) {
+  std::vector<double> headings;
+  double before = 0, sum = 0;
+  for (const vo::TimedPose& pose : trajectory) {
+    sum += headings.empty() ? 0 : vo::wrap_angle_rad(pose.pose.heading_rad - before);
+    before = pose.pose.heading_rad;
+    headings.push_back(sum * kDegrees);
+  }
+  return headings;
+}
+
+/// The point of a path some metres of way from its beginning, or its end.
+vo::WayPoint point_along(const std::vector<vo::WayPoint>& path, double metres) {
+  double walked = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double leg = std::hypot(path[i].x_m - path[i - 1].x_m, path[i].y_m - path[i - 1].y_m);
+    if (leg > 0 && walked + leg >= metres) {
+      const double share = (metres - walked) / leg;
+      return {std::lerp(path[i - 1].x_m, path[i].x_m, share), std::lerp(path[i - 1].y_m, path[i].y_m, share)};
+    }
+    walked += leg;
+  }
+  return path.back();
+}
+
+/// Moves and turns a path so that it begins where `truth` does, and in the same direction over the first
+/// metres.
+std::vector<vo::WayPoint> laid_on(std::vector<vo::WayPoint> path, const std::vector<vo::WayPoint>& truth) {
+  constexpr double kFirst_m = 5;
+  const auto direction = [](const std::vector<vo::WayPoint>& points) {
+    const vo::WayPoint at = point_along(points, kFirst_m);
+    return std::atan2(at.y_m - points.front().y_m, at.x_m - points.front().x_m);
+  };
+  const double turn = direction(truth) - direction(path);
+  const double cosine = std::cos(turn), sine = std::sin(turn);
+  const vo::WayPoint from = path.front(), to = truth.front();
+  for (vo::WayPoint& point : path) {
+    const double x = point.x_m - from.x_m, y = point.y_m - from.y_m;
+    point = {to.x_m + cosine * x - sine * y, to.y_m + sine * x + cosine * y};
+  }
+  return path;
+}
+
+std::vector<vo::WayPoint> points_of(const vo::Trajectory& trajectory) {
+  std::vector<vo::WayPoint> points;
+  for (const vo::TimedPose& pose : trajectory) points.push_back({pose.pose.x_m, pose.pose.y_m});
+  return points;
+}
+
+Series path_series(const std::vector<vo::WayPoint>& points, std::string name, std::string colour) {
+  Series series{.name = std::move(name), .colour = std::move(colour)};
+  for (const vo::WayPoint& point : points) {
+    series.x.push_back(point.x_m);
+    series.y.push_back(point.y_m);
+  }
+  return series;
+}
+
+Backdrop map_backdrop(const OdometryTruth& truth) {
+  std::ifstream file(truth.map_image, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  const cv::Mat image = bytes.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_COLOR);
+  if (image.empty()) throw vo::Error(truth.map_image.string(), "is no picture", "a PNG or JPEG of the map");
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", image, jpeg);
+  return {.source = data_url(jpeg),
+          .left = 0,
+          .right = image.cols * truth.map_scale_m_per_px,
+          .top = 0,
+          .bottom = -image.rows * truth.map_scale_m_per_px};  // down on the map is south
+}
+
+/// The mean of some measure with its standard deviation above and below, at each distance that was measured.
+std::optional<Chart> error_chart(const OdometryView& walk, Chart chart, double vo::OdometryErrors::*mean,
+                                 double vo::OdometryErrors::*sd) {
+  if (walk.truth == nullptr) return {};
+  Series middle{.name = "mean", .colour = "blue", .mark = "circle"};
+  Series above{.name = "mean plus one standard deviation", .colour = "grey", .dash = {5, 4}};
+  Series below{.name = "mean minus one", .colour = "grey", .dash = {2, 4}};
+  for (const vo::OdometryErrors& errors : walk.truth->evaluation.errors) {
+    if (errors.count == 0) continue;
+    for (const auto& [series, sign] : {std::pair{&middle, 0}, std::pair{&above, 1}, std::pair{&below, -1}}) {
+      series->x.push_back(errors.at_m);
+      series->y.push_back(errors.*mean + sign * errors.*sd);
+    }
+    middle.notes.push_back(fmt::format("sd {:.3g}, {} segments", errors.*sd, errors.count));
+  }
+  chart.x_title = "distance travelled, m";
+  chart.series = {middle, above, below};
+  chart.size = "wide";
+  return chart;
+}
+
+}  // namespace
+
+OdometryView read_odometry(const fs::path& folder) {
+  OdometryView walk;
+  walk.trajectory = vo::read_tum(folder / "trajectory.tum");
+  walk.summary = nlohmann::ordered_json::object();
+  if (std::ifstream file(folder / "summary.json"); file)
+    walk.summary = nlohmann::ordered_json::parse(file, nullptr, false);
+  if (fs::exists(folder / "frames.csv")) {
+    const vo::CsvTable table = vo::CsvTable::read(folder / "frames.csv");
+    walk.frames = {.time_s = table.numbers("time_s"),
+                   .orientation_deg = or_nan(table.optional_numbers("orientation_deg")),
+                   .matches = table.numbers("matches"),
+                   .heading_deg = table.numbers("heading_deg"),
+                   .signal = table.numbers("step_signal"),
+                   .threshold = table.numbers("step_threshold"),
+                   .reliable = table.indices("reliable")};
+  }
+  if (fs::exists(folder / "steps.csv")) {
+    const vo::CsvTable table = vo::CsvTable::read(folder / "steps.csv");
+    walk.steps = {
+        .time_s = table.numbers("time_s"),
+        .frame = table.indices("frame"),
+        .bridged = table.has("bridged") ? table.indices("bridged") : std::vector<std::int64_t>(table.rows()),
+        .leg = table.text("leg")};
+  }
+  if (fs::exists(folder / "activity.csv")) {
+    const vo::CsvTable table = vo::CsvTable::read(folder / "activity.csv");
+    walk.activity = {.time_s = table.numbers("time_s"),
+                     .amplitude_deg = table.numbers("amplitude_deg"),
+                     .step_hz = table.numbers("step_hz"),
+                     .activity = table.text("activity")};
+  }
+  return walk;
+}
+
+std::optional<Chart> gait_chart(const OdometryView& walk) {
+  if (walk.frames.time_s.empty()) return {};
+  const bool by_shift = walk.summary.value("step_signal", "orientation") != "orientation";
+  Chart chart{.title = "gait signal with thresholds and steps",
+              .x_title = "time, s",
+              .y_title = by_shift ? "x shift, px a frame" : "orientation change, deg a frame",
+              .bands = {unreliable(walk)},
+              .zoomable = true,
+              .size = "tall"};
+  for (const char* leg : {"left", "right"}) {
+    for (const bool bridged : {false, true}) {
+      Series steps = step_series(walk, leg, bridged);
+      if (!steps.x.empty()) chart.series.push_back(std::move(steps));
+    }
+  }
+  chart.series.push_back(
+      {.name = "signal, low-passed", .x = walk.frames.time_s, .y = walk.frames.signal, .colour = "blue"});
+  chart.series.push_back(threshold_lines(walk, "dynamic threshold", walk.frames.threshold, {}));
+  if (walk.summary.contains("delta_min") && walk.summary["delta_min"].is_number()) {
+    const std::vector<double> level(walk.frames.time_s.size(), walk.summary["delta_min"].get<double>());
+    chart.series.push_back(threshold_lines(walk, "static threshold", level, {7, 5}));
+  }
+  if (!by_shift) {
+    chart.series.push_back({.name = "as measured",
+                            .x = walk.frames.time_s,
+                            .y = walk.frames.orientation_deg,
+                            .colour = "grey",
+                            .width_px = 0.8});
+  }
+  // The raw signal has outliers; what matters lies within the low-passed one.
+  double top = 0;
+  for (const double value : walk.frames.signal) top = std::max(top, std::abs(value));
+  if (top > 0) chart.y_range = {-1.3 * top, 1.3 * top};
+  return chart;
+}
+
+std::optional<Chart> activity_chart(const OdometryView& walk) {
+  const auto& seconds = walk.activity;
+  if (seconds.time_s.empty()) return {};
+  Chart chart{.title = "what was done in each second, with the cadence",
+              .x_title = "time, s",
+              .y_title = "steps a second",
+              .series = {{.name = "cadence",
+                          .x = seconds.time_s,
+                          .y = seconds.step_hz,
+                          .colour = "blue",
+                          .mark = "circle"}},
+              .zoomable = true,
+              .size = "wide"};
+  static const std::map<std::string, std::string> kColours{
+      {"standing", "grey"}, {"walking", "green"}, {"running", "orange"}, {"unknown", "purple"}};
+  for (const auto& [activity, colour] : kColours) {
+    Band band{.name = activity, .colour = colour};
+    for (std::size_t i = 0; i < seconds.time_s.size(); ++i) {
+      if (seconds.activity[i] != activity) continue;
+      const double from = seconds.time_s[i], to = from + 1;
+      if (!band.spans.empty() && band.spans.back().second >= from)
+        band.spans.back().second = to;
+      else
+        band.spans.emplace_back(from, to);
+    }
+    if (!band.spans.empty()) chart.bands.push_back(std::move(band));
+  }
+  return chart;
+}
+
+std::optional<Chart> heading_chart(const OdometryView& walk) {
+  if (walk.frames.time_s.empty()) return {};
+  Chart chart{.title = "heading since the first frame",
+              .x_title = "time, s",
+              .y_title = "heading, deg clockwise",
+              .series = {{.name = "odometry",
+                          .x = walk.frames.time_s,
+                          .y = walk.frames.heading_deg,
+                          .colour = "orange"}},
+              .zoomable = true};
+  if (walk.truth != nullptr && !walk.truth->poses.empty()) {
+    Series truth{.name = "truth", .y = unwrapped_deg(walk.truth->poses), .colour = "green", .dash = {7, 5}};
+    for (const vo::TimedPose& pose : walk.truth->poses) truth.x.push_back(pose.time_s);
+    chart.series.push_back(std::move(truth));
+  }
+  return chart;
+}
+
+std::optional<Chart> matches_chart(const OdometryView& walk) {
+  if (walk.frames.time_s.empty()) return {};
+  return Chart{
+      .title = "matches of each frame",
+      .x_title = "time, s",
+      .y_title = "matches",
+      .series = {{.name = "matches", .x = walk.frames.time_s, .y = walk.frames.matches, .colour = "blue"}},
+      .bands = {unreliable(walk)},
+      .zoomable = true,
+      .size = "wide"};
+}
+
+std::optional<Chart> trajectory_chart(const OdometryView& walk) {
+  if (walk.trajectory.size() < 2) return {};
+  Chart chart{.title = "trajectory",
+              .x_title = "x, m",
+              .y_title = "y, m",
+              .equal = true,
+              .zoomable = true,
+              .size = "tall"};
+  std::vector<vo::WayPoint> path = points_of(walk.trajectory);
+  if (walk.truth != nullptr) {
+    const std::vector<vo::WayPoint> truth =
+        walk.truth->way.empty() ? points_of(walk.truth->poses) : walk.truth->way;
+    path = laid_on(std::move(path), truth);
+    chart.series.push_back(path_series(truth, "truth", "green"));
+    chart.series.back().dash = {7, 5};
+    if (!walk.truth->map_image.empty()) chart.backdrop = map_backdrop(*walk.truth);
+  }
+  chart.series.push_back(path_series({path.front()}, "start", "purple"));
+  chart.series.back().line = false;
+  chart.series.back().mark = "square";
+  chart.series.back().size_px = 7;
+  chart.series.push_back(path_series(path, "odometry", "orange"));
+  for (const vo::TimedPose& pose : walk.trajectory)
+    chart.series.back().notes.push_back(fmt::format("{:.1f} s", pose.time_s));
+  return chart;
+}
+
+std::optional<Chart> position_error_chart(const OdometryView& walk) {
+  return error_chart(walk, {.title = "position error against distance", .y_title = "position error, m"},
+                     &vo::OdometryErrors::euclidean_mean_m, &vo::OdometryErrors::euclidean_sd_m);
+}
+
+std::optional<Chart> heading_error_chart(const OdometryView& walk) {
+  return error_chart(walk,
+                     {.title = "heading error against distance", .y_title = "heading error, deg clockwise"},
+                     &vo::OdometryErrors::heading_mean_deg, &vo::OdometryErrors::heading_sd_deg);
+}
+
+}  // namespace retrace

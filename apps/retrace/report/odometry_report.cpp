@@ -1,0 +1,83 @@
+#include "odometry_report.hpp"
+
+#include "report/odometry_charts.hpp"
+#include "report/page.hpp"
+#include "report/settings_table.hpp"
+
+#include <fmt/format.h>
+
+namespace retrace {
+namespace {
+
+using nlohmann::ordered_json;
+
+void put_headlines(Page& page, const OdometryView& walk) {
+  const ordered_json& summary = walk.summary;
+  std::vector<Headline> numbers{{"Steps", std::to_string(walk.steps.time_s.size()),
+                                 summary.contains("steps_bridged")
+                                     ? fmt::format("of them {} bridged", summary["steps_bridged"].dump())
+                                     : ""}};
+  if (walk.truth != nullptr && !walk.truth->steps.empty())
+    numbers.push_back({"True steps", walk.truth->steps, ""});
+  if (summary.contains("distance_m")) {
+    numbers.push_back({"Distance", fmt::format("{:.1f} m", summary["distance_m"].get<double>()),
+                       fmt::format("steps of {:.3f} m on average", summary["step_length_m"].get<double>())});
+    numbers.push_back({"Duration", fmt::format("{:.1f} s", summary["duration_s"].get<double>()),
+                       fmt::format("{} frames", summary["frames"].dump())});
+    numbers.push_back({"Bridged", summary["frames_bridged"].dump(), "frames with too few matches"});
+  }
+  if (walk.truth != nullptr) {
+    for (const vo::OdometryErrors& errors : walk.truth->evaluation.errors) {
+      if (errors.count == 0 || (errors.at_m != 10 && errors.at_m != 50 && errors.at_m != 100)) continue;
+      numbers.push_back({fmt::format("Error after {:g} m", errors.at_m),
+                         fmt::format("{:.2f} m", errors.euclidean_mean_m),
+                         fmt::format("heading {:+.1f} deg", errors.heading_mean_deg)});
+    }
+  }
+  page.headlines(numbers);
+  for (const auto& warning : summary.value("warnings", ordered_json::array()))
+    page.warning(warning.get<std::string>());
+}
+
+void put_errors(Page& page, const OdometryView& walk) {
+  if (walk.truth == nullptr) return;
+  page.heading("Error against distance");
+  page.chart("", position_error_chart(walk),
+             "Random segments, at whose start the trajectory is put at the true place and heading [PVO 5.2, "
+             "Fig. 7].");
+  page.chart("", heading_error_chart(walk), "Estimate minus truth.");
+  std::vector<std::vector<std::string>> rows;
+  for (const vo::OdometryErrors& e : walk.truth->evaluation.errors) {
+    if (e.count == 0) continue;
+    rows.push_back({fmt::format("{:g}", e.at_m), std::to_string(e.count),
+                    fmt::format("{:.2f}", e.euclidean_mean_m), fmt::format("{:.2f}", e.euclidean_sd_m),
+                    fmt::format("{:.2f}", e.heading_mean_deg), fmt::format("{:.2f}", e.heading_sd_deg)});
+  }
+  page.table({"at, m", "segments", "position, m", "sd", "heading, deg", "sd"}, rows);
+}
+
+}  // namespace
+
+std::string odometry_report(const std::filesystem::path& folder, const OdometryTruth* truth) {
+  OdometryView walk = read_odometry(folder);
+  walk.truth = truth;
+  Page page("Steps and trajectory",
+            walk.summary.contains("walk") ? walk.summary["walk"].get<std::string>() : folder.string());
+  put_headlines(page, walk);
+  page.chart("Trajectory", trajectory_chart(walk),
+             truth == nullptr
+                 ? "Metres from the first frame, which looks along y. The square is the start."
+                 : "Metres. The odometry is laid on the truth's first five metres; the square is the start.");
+  put_errors(page, walk);
+  page.chart(
+      "Steps", gait_chart(walk),
+      "A peak beyond both thresholds is a step with the left leg (triangle), a valley one with the right "
+      "(diamond); outlines are steps filled in. Zoom in to see them [PVO Fig. 3].");
+  page.chart("Activity", activity_chart(walk), "Each shading is what was done in that second.");
+  page.chart("Heading", heading_chart(walk), "");
+  page.chart("Matches", matches_chart(walk), "Points followed over the tracking window.");
+  put_settings(page, folder / "config.toml");
+  return page.html();
+}
+
+}  // namespace retrace

@@ -1,0 +1,15 @@
+// Draws the page's figures from the data beside each of them.
+'use strict';
+
+(() => {
+  const drawing = {chart: drawChart, matrix: drawMatrix, strip: drawStrip};
+  const drawn = [];
+  for (const figure of document.querySelectorAll('figure[data-kind]')) {
+    const spec = JSON.parse(figure.querySelector('script[type="application/json"]').textContent);
+    drawn.push(drawing[figure.dataset.kind](figure, spec));
+    figure.dataset.drawn = 'true';
+  }
+  const restyle = () => drawn.forEach(figure => figure.restyle());
+  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', restyle);
+  window.matchMedia('print').addEventListener('change', restyle);
+})();

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <place/localiser.hpp>
+#include <vo/odometry.hpp>
+
+namespace retrace {
+
+/// The file in a run's folder that holds what its report shows beyond its other files: `retrace evaluate`
+/// draws the report again from the folder alone.
+inline constexpr const char* kRunDataFile = "report_data.json";
+
+/// What is in that file: of each traverse its keyframes, its cost matrix as pictures ("pictures" is empty
+/// where there is none) and the travelled displacement; of the query the displacement; pairs of query and
+/// reference previews.
+///
+/// `reference`: the route, with previews if pairs are to be shown; `matrices`: one for each traverse, or
+/// none. They may be shrunk: a picture is stretched over all keyframes.
+nlohmann::ordered_json run_data(const place::Route& route, const vo::Walk& walk,
+                                const place::SampledWalk& sampled, const std::vector<place::Match>& matches,
+                                std::span<const place::SearchMatrices> matrices);
+
+/// Reads the file; an empty object if it is not there or not whole, as in a run of an older version.
+nlohmann::ordered_json read_run_data(const std::filesystem::path& folder);
+
+}  // namespace retrace

@@ -1,0 +1,151 @@
+#include "run_report.hpp"
+
+#include "matches_file.hpp"
+#include "report/page.hpp"
+#include "report/run_charts.hpp"
+#include "report/run_pictures.hpp"
+#include "report/settings_table.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", 100 * share);
+}
+
+void put_counts(Page& page, const ordered_json& summary) {
+  if (!summary.contains("accepted")) return;
+  const auto count = [&](const char* name) { return summary.value(name, std::size_t{0}); };
+  page.headlines({{"Query keyframes", std::to_string(count("queries")),
+                   fmt::format("of {} frames", count("query_frames"))},
+                  {"Accepted", std::to_string(count("accepted")),
+                   fmt::format("score {:g} or more", summary.value("accept_score", 0.0))},
+                  {"Refused", std::to_string(count("matched") - count("accepted")), "matched, less sure"},
+                  {"Sequence", std::to_string(count("sequence_length")), "keyframes on a line"},
+                  {"Relative scale", fmt::format("{:.3f}", summary.value("relative_scale", 1.0)),
+                   "of the query's motion to the route's"}});
+  page.paragraph(
+      fmt::format("{} matches, {} of them accepted, were found on part of a line: within half a "
+                  "sequence of an end of either walk.",
+                  count("partial"), count("partial_accepted")));
+  for (const auto& warning : summary.value("warnings", ordered_json::array()))
+    page.warning(warning.get<std::string>());
+}
+
+void put_scores(Page& page, const RunTruth& truth) {
+  const place::Evaluation& e = truth.evaluation;
+  const std::string unit = truth.unit == place::ErrorUnit::kMetres ? "m" : "frames";
+  std::vector<Headline> numbers{
+      {"Max-F1", fmt::format("{:.3f}", e.best.f1), fmt::format("at score {:.4g}", e.best.threshold)},
+      {"Precision", percent(e.best.precision), "at max-F1"},
+      {"Recall", percent(e.best.recall), "at max-F1"},
+      {"Area under the curve", fmt::format("{:.3f}", e.auc_pr), "average precision"},
+      {"Recall", percent(e.recall_at_100_precision), "at 100 % precision"},
+      {"Recall@1", percent(e.recall_at_1), "every match taken"}};
+  if (e.errors) {
+    numbers.push_back({"Median error", fmt::format("{:.3g} {}", e.errors->p50, unit),
+                       fmt::format("95 % within {:.3g} {}", e.errors->p95, unit)});
+  }
+  page.headlines(numbers);
+  page.paragraph(
+      fmt::format("{} query keyframes, of them {} with a true place, {} matched. Right is within {:g} {} of "
+                  "the true place.",
+                  e.queries, e.with_truth, e.matched, truth.tolerance, name_of(truth.unit)));
+}
+
+void put_operating_points(Page& page, const RunTruth& truth) {
+  const auto row = [](std::string name, const place::OperatingPoint& p) {
+    return std::vector<std::string>{std::move(name),
+                                    fmt::format("{:.4g}", p.threshold),
+                                    fmt::format("{:.3f}", p.precision),
+                                    fmt::format("{:.3f}", p.recall),
+                                    fmt::format("{:.3f}", p.f1),
+                                    std::to_string(p.true_positives),
+                                    std::to_string(p.false_positives),
+                                    std::to_string(p.false_negatives)};
+  };
+  page.table({"", "threshold", "precision", "recall", "F1", "TP", "FP", "FN"},
+             {row("best F1", truth.evaluation.best), row("as accepted", truth.accepted)});
+  if (const auto& e = truth.evaluation.errors) {
+    page.table({"errors of all matches", "median", "75 %", "90 %", "95 %", "99 %", "largest"},
+               {{name_of(truth.unit), fmt::format("{:.3g}", e->p50), fmt::format("{:.3g}", e->p75),
+                 fmt::format("{:.3g}", e->p90), fmt::format("{:.3g}", e->p95), fmt::format("{:.3g}", e->p99),
+                 fmt::format("{:.3g}", e->max)}});
+  }
+}
+
+}  // namespace
+
+const std::string_view kCounting =
+    "Every query keyframe with a true place counts in recall's denominator, matched or not. Accepted and "
+    "within tolerance "
+    "is a true positive; accepted and not is a false positive, also where the query has no true place; the "
+    "rest with a "
+    "true place are false negatives. Every distinct score is a threshold.";
+
+std::string name_of(place::ErrorUnit unit) {
+  return unit == place::ErrorUnit::kMetres ? "metres" : "reference frames";
+}
+
+std::string run_report(const fs::path& folder, const ordered_json& data, const RunTruth* truth) {
+  const std::vector<MatchRow> matches = read_matches(folder / "matches.csv");
+  const RunView view{folder, matches, data, truth};
+  ordered_json summary = ordered_json::object();
+  if (std::ifstream file(folder / "summary.json"); file) summary = ordered_json::parse(file, nullptr, false);
+
+  Page page(truth != nullptr ? "Where the walk was found, and how well" : "Where the walk was found",
+            summary.contains("query") ? fmt::format("{} on {}", summary["query"].get<std::string>(),
+                                                    summary["route"].get<std::string>())
+                                      : folder.string());
+  if (truth != nullptr) put_scores(page, *truth);
+  put_counts(page, summary);
+  if (truth != nullptr) {
+    page.chart(
+        "Precision and recall", precision_recall_chart(*truth),
+        "Every point is a threshold of the score. The star is the threshold of the highest F1, the diamond "
+        "the run's own acceptance; dashed lines join points of equal F1.");
+    put_operating_points(page, *truth);
+    page.chart("Error along the walk", error_chart(view),
+               "Errors beyond the upper edge are drawn on it; hover for their values.");
+  } else {
+    page.paragraph("Precision, recall and errors need the truth: retrace evaluate.");
+  }
+  page.chart("Score along the walk", score_chart(view), "A higher score is a surer match.");
+  for (const ordered_json& matrix : matrix_specs(view)) {
+    page.heading(fmt::format("Cost matrix against {}", matrix["traverse"].get<std::string>()));
+    page.matrix(
+        matrix,
+        "Dark where alike. Raw: mean absolute difference of the descriptors; enhanced: as it was searched. "
+        "Drag or use the arrows to move, + and - (or the wheel with Ctrl) to zoom.");
+  }
+  page.chart("Speed, before and after normalisation", speed_chart(view),
+             "Before: travelled displacement in a second, over a second about each moment [SSS Fig. 6].");
+  page.chart(
+      "", keyframe_chart(view),
+      "After: displacement between neighbouring keyframes, in units of the sampling: constant, but where the "
+      "walker covers more than a unit between two frames [SSS Fig. 7].");
+  page.chart(
+      "", spacing_chart(view),
+      "Metres truly walked between neighbouring keyframes. The closer the two walks, the straighter the path "
+      "through the matrix, and the nearer to 45 degrees.");
+  if (const ordered_json strip = strip_spec(view); !strip["pairs"].empty()) {
+    page.heading("What was taken for the same place");
+    page.strip(strip, "Query above, the place of the route where it was found below.");
+  }
+  page.chart("Map", map_chart(view), "Metres, in the coordinates of the route.");
+  if (truth != nullptr) {
+    page.heading("How it was counted");
+    page.paragraph(kCounting);
+  }
+  put_settings(page, folder / "config.toml");
+  return page.html();
+}
+
+}  // namespace retrace

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <place/evaluation.hpp>
+#include <place/ground_truth.hpp>
+#include <vo/base/trajectory.hpp>
+
+namespace retrace {
+
+/// What is known of a run once it was held against the truth.
+struct RunTruth {
+  place::GroundTruth truth;
+  vo::Trajectory poses;  ///< the query's, where its truth has them
+  double tolerance = 0;
+  place::ErrorUnit unit = place::ErrorUnit::kMetres;
+  std::vector<place::PlaceError> errors;  ///< one for each match
+  place::Evaluation evaluation;
+  place::OperatingPoint accepted;  ///< the run's own acceptance
+};
+
+/// "metres" or "reference frames".
+std::string name_of(place::ErrorUnit unit);
+
+/// How precision and recall are counted, for people.
+extern const std::string_view kCounting;
+
+/// The report of a run, from what lies in its folder: matches.csv, and where they are there summary.json,
+/// config.toml, `data` (see run_data.hpp) and the trajectories; with the truth once it was evaluated. What is
+/// missing is left out. Throws `vo::Error` if matches.csv cannot be read.
+std::string run_report(const std::filesystem::path& folder, const nlohmann::ordered_json& data,
+                       const RunTruth* truth = nullptr);
+
+}  // namespace retrace

@@ -1,0 +1,27 @@
+#include "settings_table.hpp"
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace retrace {
+
+void put_settings(Page& page, const std::filesystem::path& config) {
+  std::ifstream file(config);
+  if (!file) return;
+  // `to_toml` writes a comment, then `name = value`, or `# name =` for what was not set.
+  std::vector<std::vector<std::string>> rows;
+  std::string line, comment;
+  while (std::getline(file, line)) {
+    const std::size_t equals = line.find(" = ");
+    if (line.starts_with('#')) {
+      comment = line.substr(std::min<std::size_t>(2, line.size()));
+    } else if (equals != std::string::npos) {
+      rows.push_back({line.substr(0, equals), line.substr(equals + 3), comment});
+    }
+  }
+  page.heading("Settings");
+  page.table({"setting", "value", "what it is"}, rows);
+}
+
+}  // namespace retrace

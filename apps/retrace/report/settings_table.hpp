@@ -1,0 +1,12 @@
+#pragma once
+
+#include "report/page.hpp"
+
+#include <filesystem>
+
+namespace retrace {
+
+/// The settings of a saved configuration (see `to_toml`), under a heading; nothing if there is no such file.
+void put_settings(Page& page, const std::filesystem::path& config);
+
+}  // namespace retrace

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace vo {
+
+/// Settings of `follow`.
+struct KltOptions {
+  int window_px = 15;              ///< side of the patch that is followed, odd
+  int levels = 3;                  ///< halvings of the picture above it
+  double max_round_trip_px = 0.7;  ///< a point that does not come back to where it was is lost
+};
+
+/// A picture and its halvings, with the borders that following needs.
+using KltPyramid = std::vector<cv::Mat>;
+
+/// `grey`: 8 bit, one channel. O(pixels).
+KltPyramid klt_pyramid(const cv::Mat& grey, const KltOptions& options = {});
+
+/// Where points of one picture are in the next (Lucas and Kanade, pyramidal: Bouguet 2000), none where they
+/// leave it or cannot be told: each is followed there and back. `guess`: one for each point, where it is
+/// looked for first. Pyramids of one size and one KltOptions, else `std::invalid_argument`. O(points), in
+/// parallel.
+std::vector<std::optional<cv::Point2f>> follow(const KltPyramid& before, const KltPyramid& after,
+                                               std::span<const cv::Point2f> points,
+                                               std::span<const cv::Point2f> guess,
+                                               const KltOptions& options = {});
+
+}  // namespace vo

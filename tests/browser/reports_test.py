@@ -1,0 +1,292 @@
+#!/usr/bin/env python3
+"""The reports in a real browser with the network off: no error, every figure drawn, filters, zoom and keys work, light,
+dark and on paper. Screenshots stay in the folder RETRACE_SCREENSHOTS. Exits 77, skipped, where there is no Chromium."""
+
+import base64
+import os
+import pathlib
+import shutil
+import struct
+import sys
+import tempfile
+import unittest
+import zlib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from support.retrace_cli import check  # noqa: E402
+
+SKIPPED = 77
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    print("skipped: python3-selenium is not installed")
+    sys.exit(SKIPPED)
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+CHROMEDRIVER = shutil.which("chromedriver")
+if not CHROMIUM or not CHROMEDRIVER:
+    print("skipped: chromium and chromium-driver are not installed")
+    sys.exit(SKIPPED)
+
+SCREENSHOTS = pathlib.Path(os.environ.get("RETRACE_SCREENSHOTS", "screenshots"))
+
+# The share of a canvas's pixels that differ from its first one.
+INKED = """
+const canvas = arguments[0], data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+let inked = 0;
+for (let i = 0; i < data.length; i += 4)
+  inked += data[i] !== data[0] || data[i + 1] !== data[1] || data[i + 2] !== data[2] || data[i + 3] !== data[3];
+return inked / (data.length / 4);"""
+# A number that changes with what is drawn.
+DIGEST = """
+const canvas = arguments[0], data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+let digest = 7;
+for (const byte of data) digest = (Math.imul(digest, 31) + byte) | 0;
+return digest;"""
+
+
+def browser():
+    options = Options()
+    options.binary_location = CHROMIUM
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1200,1000",
+                     "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE localhost"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    driver = webdriver.Chrome(service=Service(CHROMEDRIVER), options=options)
+    driver.execute_cdp_cmd("Network.enable", {})
+    driver.execute_cdp_cmd("Network.emulateNetworkConditions",
+                           {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
+    return driver
+
+
+def chequers(width, height, side=10):
+    """A PNG of black and white squares."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    lines = b"".join(b"\0" + bytes(255 * ((x // side + y // side) % 2) for x in range(width)) for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+
+
+class Walks:
+    """Two short walks along one street, and every kind of run made of them."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        small = ["--length-m", 25, "--width", 320, "--height", 180]
+        check("simulate", *small, "--speed", "slow-fast", "-o", folder / "day")
+        check("simulate", *small, "--speed", "fast-slow", "--condition", "rain", "--gait-seed", 2, "-o", folder / "rain")
+        self.day, self.rain = folder / "day/walk.mp4", folder / "rain/walk.mp4"
+        self.truth = ["--query-truth", folder / "rain/truth.csv", "--reference-truth", folder / "day/truth.csv"]
+        check("build", self.day, "-o", folder / "route.db", "--truth", folder / "day/truth.csv", "--sampling-n", 2)
+        # Half of the matches are refused, so that there is something to choose from.
+        self.run = self.localised("run", "--accept-score", 1.5)
+
+    def localised(self, name, *options):
+        check("localise", self.rain, "--route", self.folder / "route.db", "-o", self.folder / name, *options)
+        return self.folder / name
+
+    def evaluated(self, run):
+        check("evaluate", run, *self.truth, "--tolerance-m", 2)
+        return run
+
+
+class ReportsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="retrace-browser-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.walks = Walks(cls.folder)
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        cls.driver = browser()
+        cls.addClassCleanup(cls.driver.quit)
+
+    def script(self, text, *arguments):
+        return self.driver.execute_script(text, *arguments)
+
+    def all(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def open(self, path, charts=0, matrices=0, strips=0):
+        """Opens a report and checks what holds for every one of them."""
+        self.assertLess(path.stat().st_size, 15e6)
+        self.colours("light")
+        self.driver.get_log("browser")  # what Chromium has to say of reading canvases back, as this test does
+        self.driver.get(path.as_uri())
+        self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")], [])
+        fetched = [line for line in self.driver.get_log("performance") if '"Network.requestWillBeSent"' in line["message"]]
+        for line in fetched:
+            self.assertRegex(line["message"], r'"url":"(file|data|about|chrome):')
+        for kind, count in (("chart", charts), ("matrix", matrices), ("strip", strips)):
+            self.assertEqual(len(self.all(f"figure.{kind}[data-drawn=true]")), count, kind)
+        for canvas in self.all("canvas"):
+            self.assertGreater(self.script(INKED, canvas), 0.002, canvas.get_attribute("aria-label"))
+            self.assertTrue(canvas.get_attribute("aria-label"))
+        for picture in self.all("img"):
+            self.assertTrue(picture.get_attribute("alt"))
+        self.assertEqual(len(self.all("h1")), 1)
+        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"), 1200)  # nothing sticks out
+        self.reached_by_keys()
+        self.in_the_dark()
+        self.screenshot(path.parent.name + "-" + path.stem)
+
+    def colours(self, scheme):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                    {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+    def reached_by_keys(self):
+        """Tab comes to every canvas, list and button, and each shows that it has the focus."""
+        wanted = self.script("return document.querySelectorAll('canvas, .strip ol, button').length")
+        self.script("document.activeElement.blur(); window.scrollTo(0, 0);")
+        reached = set()
+        for _ in range(wanted + 60):
+            self.driver.switch_to.active_element.send_keys(Keys.TAB)
+            element = self.driver.switch_to.active_element
+            if element.id in reached:
+                break
+            if element.tag_name in ("canvas", "ol", "button"):
+                reached.add(element.id)
+                self.assertTrue(self.script("return arguments[0].matches(':focus-visible')", element))
+        self.assertEqual(len(reached), wanted)
+
+    def in_the_dark(self):
+        canvases = self.all("canvas")
+        light = [self.script(DIGEST, canvas) for canvas in canvases]
+        self.colours("dark")
+        background = self.script("return getComputedStyle(document.body).backgroundColor")
+        self.assertEqual(background, "rgb(22, 23, 27)")
+        for canvas, before in zip(canvases, light):
+            # The page is told of the change in its own time.
+            WebDriverWait(self.driver, 10).until(lambda _, c=canvas, b=before: self.script(DIGEST, c) != b,
+                                                 canvas.get_attribute("aria-label"))
+        self.screenshot("dark")
+        self.colours("light")
+
+    def screenshot(self, name):
+        height = self.script("return document.documentElement.scrollHeight")
+        picture = self.driver.execute_cdp_cmd("Page.captureScreenshot", {
+            "captureBeyondViewport": True, "clip": {"x": 0, "y": 0, "width": 1200, "height": height, "scale": 1}})
+        (SCREENSHOTS / f"{name}.png").write_bytes(base64.b64decode(picture["data"]))
+
+    def zooms(self, figure, canvas):
+        before = self.script(DIGEST, canvas)
+        figure.find_element(By.CSS_SELECTOR, "button[aria-label='zoom in']").click()
+        self.assertEqual(figure.get_attribute("data-zoom"), "2.00")
+        self.assertNotEqual(self.script(DIGEST, canvas), before)
+        canvas.send_keys("+")
+        self.assertEqual(figure.get_attribute("data-zoom"), "4.00")
+        canvas.send_keys("0")
+        self.assertEqual(figure.get_attribute("data-zoom"), "1.00")
+        self.assertEqual(self.script(DIGEST, canvas), before)
+
+    def reads_points_by_keys(self, figure):
+        canvas = figure.find_element(By.TAG_NAME, "canvas")
+        canvas.send_keys(Keys.ARROW_RIGHT)
+        self.assertIn("point 1 of", figure.find_element(By.CSS_SELECTOR, ".reading").text)
+
+    def test_localise(self):
+        self.open(self.walks.run / "report.html", charts=4, matrices=1, strips=1)
+        self.assertIn("retrace evaluate", self.script("return document.body.textContent"))
+
+    def test_evaluate(self):
+        run = self.walks.evaluated(self.walks.localised("evaluated", "--accept-score", 1.5))
+        self.open(run / "report.html", charts=7, matrices=1, strips=1)
+        self.assertIn("Max-F1", self.script("return document.querySelector('dl.headline').textContent"))
+
+        matrix = self.all("figure.matrix")[0]
+        canvas = matrix.find_element(By.TAG_NAME, "canvas")
+        self.zooms(matrix, canvas)
+        before = self.script(DIGEST, canvas)
+        matrix.find_element(By.CSS_SELECTOR, "input[value=raw]").click()
+        self.assertEqual(matrix.get_attribute("data-picture"), "raw")
+        self.assertNotEqual(self.script(DIGEST, canvas), before)
+        for layer in ("truth", "found", "accepted", "refused"):
+            before = self.script(DIGEST, canvas)
+            matrix.find_element(By.CSS_SELECTOR, f"input[value={layer}]").click()
+            self.assertNotEqual(self.script(DIGEST, canvas), before, layer)
+
+        zoomable = [f for f in self.all("figure.chart") if f.find_elements(By.TAG_NAME, "button")]
+        self.zooms(zoomable[0], zoomable[0].find_element(By.TAG_NAME, "canvas"))
+        self.reads_points_by_keys(zoomable[0])
+
+        strip = self.all("figure.strip")[0]
+        everything = len(strip.find_elements(By.TAG_NAME, "li"))
+        for name, state in (("accepted", "accepted"), ("refused", "refused")):
+            strip.find_element(By.CSS_SELECTOR, f"button[data-filter={name}]").click()
+            items = strip.find_elements(By.TAG_NAME, "li")
+            self.assertTrue(0 < len(items) < everything)
+            self.assertEqual({item.get_attribute("class") for item in items}, {state})
+        pictures = self.script("return [...document.querySelectorAll('.strip img')].map(i => i.decode().then(() => i.naturalWidth))")
+        self.assertTrue(pictures)
+
+    def test_odometry(self):
+        walk = self.folder / "odometry"
+        check("odometry", self.walks.day, "-o", walk)
+        self.open(walk / "report.html", charts=5)
+        chart = self.all("figure.chart")[1]
+        self.zooms(chart, chart.find_element(By.TAG_NAME, "canvas"))
+        self.reads_points_by_keys(chart)
+
+        check("evaluate-odometry", walk, "--truth", self.folder / "day/truth.csv")
+        self.open(walk / "report.html", charts=7)
+        self.assertIn("True steps", self.script("return document.querySelector('dl.headline').textContent"))
+
+    def test_odometry_over_a_map(self):
+        """A way of two points, drawn on a map of chequers, under the trajectory."""
+        walk = self.folder / "mapped"
+        walk.mkdir()
+        (walk / "trajectory.tum").write_text("".join(f"{i} 0 {i} 0 0 0 0 1\n" for i in range(30)))
+        (walk / "steps.csv").write_text("step,frame,time_s,leg\n1,1,1,left\n")
+        (walk / "way.csv").write_text("x_px,y_px\n50,90\n50,32\n")
+        image = walk / "map.png"
+        image.write_bytes(chequers(100, 100))
+        evaluate = ["evaluate-odometry", walk, "--truth", walk / "way.csv", "--map-scale-m-per-px", 0.5]
+        check(*evaluate)
+        self.open(walk / "report.html", charts=3)
+        plain = self.script(INKED, self.all("canvas")[0])
+        check(*evaluate, "--map-image", image)
+        self.open(walk / "report.html", charts=3)
+        self.assertGreater(self.script(INKED, self.all("canvas")[0]), plain + 0.05)
+
+    def test_sweep(self):
+        check("sweep", self.walks.rain, "--reference", self.walks.day, *self.walks.truth, "--tolerance-m", 2, "-o",
+              self.folder / "sweep", "--sequence-length", "5,10", "--search-range-rad", "0,0.2,0.4", "--vary",
+              "enhance=local,standardise")
+        # Two motion sources, each against range and against length; and the further setting.
+        self.open(self.folder / "sweep/report.html", charts=5)
+        self.assertEqual(len(self.all("table.heat")), 2)
+        self.assertGreaterEqual(len(self.all("td.best")), 2)
+        shades = {cell.value_of_css_property("background-color") for cell in self.all("table.heat td")}
+        self.assertGreater(len(shades), 2)
+
+    def test_compare(self):
+        runs = [self.walks.evaluated(self.walks.localised(name, *options))
+                for name, options in (("short", ["--sequence-length", 3]), ("long", ["--sequence-length", 20]))]
+        check("compare", *runs, "-o", self.folder / "comparison", "--segment-s", 2)
+        self.open(self.folder / "comparison/report.html", charts=2)
+        self.assertEqual(len(self.all("dl.headline > div")), 2)
+
+    def test_hovering_the_curve_tells_the_threshold(self):
+        run = self.walks.evaluated(self.walks.localised("hovered"))
+        self.driver.get((run / "report.html").as_uri())
+        told = self.script("""
+            const figure = document.querySelector('figure.chart'), chart = Chart.getChart(figure.querySelector('canvas'));
+            const curve = chart.data.datasets.findIndex(d => d.label === 'every threshold');
+            const point = chart.getDatasetMeta(curve).data[0], box = chart.canvas.getBoundingClientRect();
+            chart.canvas.dispatchEvent(new MouseEvent('mousemove', {clientX: box.left + point.x, clientY: box.top + point.y, bubbles: true}));
+            return new Promise(done => setTimeout(() => done(chart.tooltip.body.flatMap(b => b.lines).join(' ')), 200));""")
+        self.assertRegex(told, r"threshold \d")
+
+    def test_prints(self):
+        self.driver.get((self.walks.run / "report.html").as_uri())
+        pdf = base64.b64decode(self.driver.execute_cdp_cmd("Page.printToPDF", {"printBackground": False})["data"])
+        (SCREENSHOTS / "run.pdf").write_bytes(pdf)
+        self.assertTrue(pdf.startswith(b"%PDF"))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

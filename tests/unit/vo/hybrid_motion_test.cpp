@@ -1,0 +1,135 @@
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <support/known_motion.hpp>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vo/motion/hybrid_motion.hpp>
+
+namespace {
+
+using test_support::known_motion;
+using test_support::KnownMotion;
+using vo::DisplacementSource;
+
+vo::HybridMotionOptions unsmoothed() {
+  vo::HybridMotionOptions options;
+  options.scale.smoothing_s = 0;
+  return options;
+}
+
+double length(const vo::HybridMotion& motion, std::size_t begin, std::size_t end) {
+  double total = 0;
+  for (std::size_t i = begin; i < end; ++i) total += motion.frames[i].value;
+  return total;
+}
+
+TEST(HybridMotion, PutsAlignmentErrorWhereTheTrackIsLost) {
+  KnownMotion walk = known_motion(60, 0.8, 1.8);
+  walk.lose(600, 725, 3);
+  const vo::HybridMotion motion = vo::hybrid_motion(walk.evidence(), unsmoothed());
+  EXPECT_FALSE(motion.metric);
+  EXPECT_EQ(motion.frames[0].source, DisplacementSource::kNone);
+  for (std::size_t i = 1; i < walk.frames(); ++i) {
+    const bool lost = i >= 600 && i < 725;
+    ASSERT_EQ(motion.frames[i].source,
+              lost ? DisplacementSource::kAlignmentError : DisplacementSource::kTrack)
+        << i;
+    // The relation is exact but for the bins it is learned in and the least over five frames.
+    EXPECT_NEAR(motion.frames[i].value, walk.metres[i], 0.12 * walk.metres[i]) << i;
+  }
+  EXPECT_NEAR(length(motion, 0, walk.frames()), std::accumulate(walk.metres.begin(), walk.metres.end(), 0.0),
+              1.5);
+}
+
+TEST(HybridMotion, PutsStepsThereWhereTheyAreTheBetter) {
+  KnownMotion walk = known_motion(60, 0.8, 1.8);
+  walk.lose(600, 725, 3);
+  vo::Rng rng(3);
+  for (auto& errors : walk.errors.by_separation)
+    for (float& error : errors) error *= static_cast<float>(rng.uniform(0.3, 1.7));
+  vo::MotionEvidence evidence = walk.evidence();
+  evidence.steps_m = walk.metres;
+  evidence.steps_known.assign(walk.frames(), true);
+  const vo::HybridMotion motion = vo::hybrid_motion(evidence, unsmoothed());
+  EXPECT_TRUE(motion.metric);
+  for (std::size_t i = 600; i < 725; ++i) {
+    EXPECT_EQ(motion.frames[i].source, DisplacementSource::kSteps);
+    EXPECT_EQ(motion.frames[i].value, walk.metres[i]);
+  }
+  EXPECT_EQ(motion.frames[300].source, DisplacementSource::kTrack);
+}
+
+TEST(HybridMotion, HoldsTheSpeedWhereNothingIsSeen) {
+  KnownMotion walk = known_motion(40, 1, 1);
+  for (std::size_t i = 500; i < walk.frames(); ++i) walk.metres[i] *= 2;
+  walk.lose(450, 550, 1);
+  vo::MotionEvidence evidence = walk.evidence();
+  for (std::size_t i = 450; i < 550; ++i) evidence.errors_known[i] = false;
+  const vo::HybridMotion motion = vo::hybrid_motion(evidence, unsmoothed());
+  // The unit after the loss is that of the alignment errors, which know of no change of speed.
+  const double before = motion.frames[449].value, after = motion.frames[550].value;
+  for (std::size_t i = 450; i < 550; ++i) {
+    EXPECT_EQ(motion.frames[i].source, DisplacementSource::kHeld);
+    const double share = (static_cast<double>(i) - 450 + 0.5) / 100;
+    EXPECT_NEAR(motion.frames[i].value, before + share * (after - before), 0.05 * before) << i;
+  }
+}
+
+TEST(HybridMotion, StandsWhereTheViewDoesNotChange) {
+  KnownMotion walk = known_motion(40, 1, 1.5);
+  walk.lose(300, 400, 1);
+  vo::MotionEvidence evidence = walk.evidence();
+  evidence.standing.assign(walk.frames(), false);
+  for (std::size_t i = 320; i < 360; ++i) evidence.standing[i] = true;
+  const vo::HybridMotion motion = vo::hybrid_motion(evidence, unsmoothed());
+  EXPECT_EQ(motion.frames[340].value, 0);
+  EXPECT_GT(motion.frames[310].value, 0);
+}
+
+TEST(HybridMotion, WithoutATrackIsSteps) {
+  const KnownMotion walk = known_motion(20, 1, 1.5);
+  const vo::MotionEvidence evidence{
+      .time_s = walk.time_s, .steps_m = walk.metres, .steps_known = std::vector<bool>(walk.frames(), true)};
+  const vo::HybridMotion motion = vo::hybrid_motion(evidence);
+  EXPECT_TRUE(motion.metric);
+  for (std::size_t i = 1; i < walk.frames(); ++i) EXPECT_EQ(motion.frames[i].value, walk.metres[i]);
+}
+
+TEST(HybridMotion, WithAlignmentErrorAloneIsInFramesOfMeanSpeed) {
+  const KnownMotion walk = known_motion(40, 0.8, 1.8);
+  const vo::MotionEvidence evidence{
+      .time_s = walk.time_s, .errors = &walk.errors, .errors_known = std::vector<bool>(walk.frames(), true)};
+  const vo::HybridMotion motion = vo::hybrid_motion(evidence);
+  EXPECT_FALSE(motion.metric);
+  // SSS learns frame separations, so the mean is one frame a frame; a bent relation adds a little.
+  EXPECT_NEAR(length(motion, 0, walk.frames()) / static_cast<double>(walk.frames() - 1), 1, 0.05);
+}
+
+TEST(HybridMotion, TrustsNoSourceMoreThanItDeserves) {
+  KnownMotion walk = known_motion(60, 0.8, 1.8);
+  walk.lose(600, 725, 3);
+  const vo::HybridMotion exact = vo::hybrid_motion(walk.evidence(), unsmoothed());
+  vo::Rng rng(3);
+  for (auto& errors : walk.errors.by_separation)
+    for (float& error : errors) error *= static_cast<float>(rng.uniform(0.3, 1.7));
+  const vo::HybridMotion noisy = vo::hybrid_motion(walk.evidence(), unsmoothed());
+  EXPECT_LT(exact.frames[650].sigma, 0.1 * exact.frames[650].value);
+  EXPECT_GT(noisy.frames[650].sigma / noisy.frames[650].value,
+            1.5 * exact.frames[650].sigma / exact.frames[650].value);
+}
+
+TEST(HybridMotion, RefusesWhatDoesNotFit) {
+  const KnownMotion walk = known_motion(10, 1, 1.5);
+  vo::MotionEvidence evidence = walk.evidence();
+  evidence.errors_known.pop_back();
+  EXPECT_THROW(vo::hybrid_motion(evidence), std::invalid_argument);
+  EXPECT_THROW(vo::hybrid_motion({.time_s = {0}}), std::invalid_argument);
+  EXPECT_THROW(vo::hybrid_motion({}), std::invalid_argument);
+  EXPECT_EQ(vo::hybrid_motion({.time_s = {0, 1}}).frames[1].value, 0);  // nothing said, nothing moved
+}
+
+}  // namespace
