@@ -195,7 +195,7 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   for (std::size_t i = 0; i < route.traverses.size(); ++i) {
     pictures.push_back(matrix_picture(found.matrices[i].enhanced, found.matches, route.traverses[i].name));
   }
-  const QueryTrajectory trajectory = query_trajectory(route, walk, found, settings);
+  const QueryTrajectory trajectory = query_trajectory(route, walk, found.matches, settings);
   if (trajectory.asked_for && !trajectory.why_not.empty())
     spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
                  trajectory.why_not);

@@ -1,3 +1,4 @@
+#include "close_loops.hpp"
 #include "command.hpp"
 #include "progress_bar.hpp"
 #include "run_directory.hpp"
@@ -32,6 +33,7 @@ struct OdometryOptions {
   std::string walk;
   std::string output;
   std::optional<double> walk_length_m;
+  bool close_loops = false;
 };
 
 std::string frames_csv(const vo::Walk& walk, const vo::PedestrianMotion& motion) {
@@ -143,13 +145,20 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
     motion = vo::pedestrian_motion(walk, pedestrian);
   }
 
-  const ordered_json json = summary(walk, motion, pedestrian.step_length.length_m);
+  ordered_json json = summary(walk, motion, pedestrian.step_length.length_m);
+  vo::Trajectory trajectory = motion.trajectory.at_frame;
+  if (options.close_loops) {
+    ClosedLoops closed = close_loops(walk, motion, {.patch = settings.patch});
+    json["loops"] = {{"keyframes", closed.loops}, {"believed", closed.believed}};
+    trajectory = std::move(closed.trajectory);
+    vo::write_file(folder / "trajectory_odometry.tum",
+                   vo::to_tum(motion.trajectory.at_frame, "the same before loops were closed"));
+  }
   vo::write_file(folder / "frames.csv", frames_csv(walk, motion));
   vo::write_file(folder / "steps.csv", steps_csv(motion));
   vo::write_file(folder / "activity.csv", activity_csv(motion));
-  vo::write_file(
-      folder / "trajectory.tum",
-      vo::to_tum(motion.trajectory.at_frame, "pose of each frame, metres and radians since the first"));
+  vo::write_file(folder / "trajectory.tum",
+                 vo::to_tum(trajectory, "pose of each frame, metres and radians since the first"));
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
   if (options.common.json) {
@@ -159,6 +168,10 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   fmt::print("{}: {} steps, {:.1f} m in {:.1f} s with steps of {:.3f} m; see {}\n", options.output,
              motion.detection.steps.size(), json["distance_m"].get<double>(), walk.time_s.back(),
              pedestrian.step_length.length_m, (folder / "steps.csv").string());
+  if (options.close_loops) {
+    fmt::print("loops: {} of {} places seen before are believed\n", json["loops"]["believed"].dump(),
+               json["loops"]["keyframes"].dump());
+  }
   if (motion.detection.bridged + motion.signal.bridged > 0) {
     fmt::print("bridged: {} of the steps, {} of {} frames with too few points\n", motion.detection.bridged,
                motion.signal.bridged, walk.frames());
@@ -175,6 +188,8 @@ Command add_odometry(CLI::App& root) {
   app->add_option("--walk-length-m", options->walk_length_m,
                   "metres, known length of this walk: measures the step length, for --step-length on others")
       ->check(CLI::PositiveNumber);
+  app->add_flag("--close-loops", options->close_loops,
+                "find where the walk comes back to its own path, and correct the trajectory's drift by it");
   add_frame_options(*app, options->settings);
   add_odometry_options(*app, options->settings);
   add_general_options(*app, options->settings);
