@@ -29,6 +29,7 @@ struct BuildOptions {
   std::string name;
   std::string truth;
   std::string trajectory;
+  std::string track;
 };
 
 /// The traverse's name where none is given: the recording's, without folders and ending.
@@ -43,6 +44,16 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
     if (traverse.name == options.name && !options.common.force) {
       throw vo::Error(options.output, fmt::format("already has a traverse '{}'", options.name),
                       "another --name, or --force to replace it");
+    }
+  }
+}
+
+/// A track's poses are metres about the route's origin; other coordinates on the route would not fit them.
+void check_poses_are_geographic(const place::Route& route, const std::string& path) {
+  for (const place::Traverse& traverse : route.traverses) {
+    if (!route.origin && traverse.surveyed && !traverse.pose_source.empty()) {
+      throw vo::Error(path, fmt::format("has poses of {} that are not geographic", traverse.pose_source),
+                      "--truth or --trajectory in the same coordinates, or another route");
     }
   }
 }
@@ -110,6 +121,10 @@ void build(const CLI::App& app, BuildOptions& options) {
   std::optional<place::Survey> survey;
   if (!options.truth.empty()) survey = survey_from_truth(options.truth, walk);
   if (!options.trajectory.empty()) survey = survey_from_trajectory(options.trajectory, walk);
+  if (!options.track.empty()) {
+    check_poses_are_geographic(route, options.output);
+    survey = survey_from_track(options.track, walk, route.origin);
+  }
   if (!survey) survey = survey_from_odometry(walk, settings.sampling.motion.pedestrian);
 
   const AddedTraverse added = add_traverse(route, options.name, walk, survey, settings);
@@ -147,6 +162,10 @@ Command add_build(CLI::App& root) {
   app->add_option("--trajectory", options->trajectory,
                   "surveyed poses of the walk, TUM format, seconds since its first frame")
       ->excludes(truth);
+  app->add_option("--track", options->track,
+                  "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg")
+      ->excludes(truth)
+      ->excludes("--trajectory");
   add_frame_options(*app, options->settings);
   add_sampling_options(*app, options->settings);
   add_odometry_options(*app, options->settings);

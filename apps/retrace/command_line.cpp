@@ -69,9 +69,11 @@ int run(int argc, char** argv) {
       "  retrace localise night.mp4 --route route.db -o run\n"
       "  retrace evaluate run --pairs pairs.csv --tolerance-frames 17");
   const std::vector<retrace::Command> commands{
-      retrace::add_demo(root),     retrace::add_build(root),    retrace::add_localise(root),
-      retrace::add_evaluate(root), retrace::add_sweep(root),    retrace::add_compare(root),
-      retrace::add_inspect(root),  retrace::add_odometry(root), retrace::add_evaluate_odometry(root),
+      retrace::add_demo(root),     retrace::add_build(root),
+      retrace::add_localise(root), retrace::add_correct(root),
+      retrace::add_evaluate(root), retrace::add_sweep(root),
+      retrace::add_compare(root),  retrace::add_inspect(root),
+      retrace::add_odometry(root), retrace::add_evaluate_odometry(root),
       retrace::add_simulate(root), retrace::add_config(root)};
 
   std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -156,7 +156,7 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   localiser.whole_matrices = save_matrices;
   place::Localisation found = place::localise(route, walk, sampled, localiser);
 
-  const QueryTrajectory trajectory = query_trajectory(route, walk, found, settings);
+  const QueryTrajectory trajectory = query_trajectory(route, walk, sampled, found.matches, settings);
   if (trajectory.asked_for && !trajectory.why_not.empty())
     spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
                  trajectory.why_not);

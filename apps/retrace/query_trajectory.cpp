@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <place/geographic.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/atomic_file.hpp>
 #include <vo/io/trajectory_io.hpp>
@@ -16,17 +17,22 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// The walk's odometry at its keyframes; none, with the reason, if it has none.
-vo::Trajectory odometry_at_keyframes(const vo::Walk& walk, const std::vector<place::Match>& matches,
-                                     const Settings& settings, std::string& why_not) {
+vo::Trajectory odometry_at_keyframes(const vo::Walk& walk, const place::SampledWalk& sampled,
+                                     const std::vector<place::Match>& matches, const Settings& settings,
+                                     std::string& why_not) {
   vo::Trajectory nodes;
   try {
-    const vo::PedestrianMotion motion = vo::pedestrian_motion(walk, settings.sampling.motion.pedestrian);
-    if (motion.detection.steps.empty()) {
-      why_not = fmt::format("{} shows no steps", walk.source);
-      return {};
+    vo::Trajectory trajectory = sampled.trajectory;
+    if (trajectory.empty()) {
+      vo::PedestrianMotion motion = vo::pedestrian_motion(walk, settings.sampling.motion.pedestrian);
+      if (motion.detection.steps.empty()) {
+        why_not = fmt::format("{} shows no steps", walk.source);
+        return {};
+      }
+      trajectory = std::move(motion.trajectory.at_frame);
     }
     for (const place::Match& match : matches)
-      nodes.push_back(motion.trajectory.at_frame[static_cast<std::size_t>(match.query_frame)]);
+      nodes.push_back(trajectory[static_cast<std::size_t>(match.query_frame)]);
   } catch (const vo::Error& error) {
     why_not = error.what();
   }
@@ -87,24 +93,31 @@ bool has_poses(const place::Route& route) {
 }
 
 QueryTrajectory query_trajectory(const place::Route& route, const vo::Walk& walk,
-                                 const place::Localisation& found, const Settings& settings) {
+                                 const place::SampledWalk& sampled, const std::vector<place::Match>& matches,
+                                 const Settings& settings) {
   QueryTrajectory t;
-  if (!has_poses(route)) {
-    t.why_not = "the route has no poses (build it with --truth or --trajectory, or with --motion steps)";
-    return t;
-  }
-  place::RouteFixes fixes = place::pose_fixes(route, found.matches);
-  t.fixes = std::move(fixes.fixes);
-  t.traverse = fixes.traverse;
+  t.fixes = place::pose_fixes(route, matches).fixes;
   t.asked_for = settings.correct_drift && !walk.tracked.empty();
-  if (!t.asked_for) {
+  if (!has_poses(route)) {
+    t.why_not =
+        "the route has no poses (build it with --truth, --trajectory or --track, or with --motion steps)";
+  } else if (!t.asked_for) {
     t.why_not = "--correct-drift is false";
-    return t;
+  } else {
+    const vo::Trajectory odometry = odometry_at_keyframes(walk, sampled, matches, settings, t.why_not);
+    if (t.why_not.empty()) return query_trajectory(route, matches, odometry);
   }
-  const vo::Trajectory odometry = odometry_at_keyframes(walk, found.matches, settings, t.why_not);
-  if (!t.why_not.empty()) return t;
-  t.corrected = place::correct_drift(odometry, t.fixes);
-  if (t.fixes.empty() || t.corrected.status != place::DriftStatus::kCorrected) {
+  return t;
+}
+
+QueryTrajectory query_trajectory(const place::Route& route, const std::vector<place::Match>& matches,
+                                 const vo::Trajectory& odometry) {
+  place::RouteFixes fixes = place::pose_fixes(route, matches);
+  QueryTrajectory t;
+  t.traverse = fixes.traverse;
+  t.fixes = std::move(fixes.fixes);
+  if (!t.fixes.empty()) t.corrected = place::correct_drift(odometry, t.fixes);
+  if (t.corrected.status != place::DriftStatus::kCorrected) {
     t.why_not = "fewer than three accepted matches agree with the walk between them";
     return t;
   }
@@ -117,7 +130,6 @@ QueryTrajectory query_trajectory(const place::Route& route, const vo::Walk& walk
 
 void write_trajectory(const QueryTrajectory& t, const place::Route& route,
                       const std::vector<place::Match>& matches, const std::filesystem::path& folder) {
-  static_cast<void>(route);
   for (const char* name :
        {"trajectory_odometry.tum", "trajectory.csv", "trajectory.geojson", "trajectory.gpx"})
     std::filesystem::remove(folder / name);
@@ -128,12 +140,16 @@ void write_trajectory(const QueryTrajectory& t, const place::Route& route,
     vo::write_file(folder / "trajectory.tum", vo::to_tum(matched_poses(matches), comment));
     return;
   }
-  vo::write_file(folder / "trajectory.tum",
-                 vo::to_tum(without_covariance(t.corrected),
-                            "query time, corrected pose of each query keyframe in the route's coordinates"));
+  const vo::Trajectory corrected = without_covariance(t.corrected);
+  vo::write_file(
+      folder / "trajectory.tum",
+      vo::to_tum(corrected, "query time, corrected pose of each query keyframe in the route's coordinates"));
   vo::write_file(folder / "trajectory_odometry.tum",
                  vo::to_tum(t.odometry, "the same before correction, laid where the corrected one begins"));
   vo::write_file(folder / "trajectory.csv", trajectory_csv(t, matches));
+  if (!route.origin || !route.traverses[*t.traverse].surveyed) return;
+  vo::write_file(folder / "trajectory.geojson", place::to_geojson(corrected, *route.origin));
+  vo::write_file(folder / "trajectory.gpx", place::to_gpx(corrected, *route.origin));
 }
 
 }  // namespace retrace

@@ -18,7 +18,7 @@ struct QueryTrajectory {
   /// Why there is no corrected trajectory; empty if there is one. Only accepted matches' poses say then where
   /// the walker was.
   std::string why_not;
-  bool asked_for = false;  ///< a correction was to be made: the reason is a warning
+  bool asked_for = true;  ///< a correction was to be made: the reason is a warning
 
   std::optional<std::size_t> traverse;  ///< that the positions are along
   std::vector<place::PoseFix> fixes;    ///< accepted matches with poses, by keyframe
@@ -32,7 +32,12 @@ bool has_poses(const place::Route& route);
 
 /// Corrects the drift of the walk's odometry by its matches, if the settings ask for it.
 QueryTrajectory query_trajectory(const place::Route& route, const vo::Walk& walk,
-                                 const place::Localisation& found, const Settings& settings);
+                                 const place::SampledWalk& sampled, const std::vector<place::Match>& matches,
+                                 const Settings& settings);
+
+/// The same of odometry at hand: a pose for each match.
+QueryTrajectory query_trajectory(const place::Route& route, const std::vector<place::Match>& matches,
+                                 const vo::Trajectory& odometry);
 
 /// Writes trajectory.tum: the corrected poses, or else those of accepted matches. With a correction also
 /// trajectory_odometry.tum and trajectory.csv, and trajectory.geojson and .gpx where the route has an origin;

@@ -184,6 +184,8 @@ class Problem {
     options.num_threads = 1;  // the order of sums, and so the bytes, would depend on more
     options.max_num_iterations = iterations;
     options.function_tolerance = tolerance;
+    options.initial_trust_region_radius =
+        1e10;  // Gauss-Newton: scales are weak directions, which damping holds back
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
@@ -292,7 +294,7 @@ Prior prior_at_start(const State& state, bool pose_known, const DriftCorrectionO
 bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_convex) {
   constexpr double kStep = 2;  // between stages
   constexpr int kIterations = 1, kLastIterations = 30, kMostRounds = 5;
-  constexpr double kTolerance = 1e-3, kLastTolerance = 1e-8, kSettled = 0.01;
+  constexpr double kTolerance = 1e-3, kLastTolerance = 1e-7, kSettled = 0.01;
   const std::vector<State> before = graph.states;
   const std::vector<double> errors = squared_errors(graph, options);
   const double worst = errors.empty() ? 0 : std::ranges::max(errors);

@@ -36,8 +36,9 @@ struct SampledWalk {
   vo::ImageStack thumbnails;     ///< of the keyframes
   vo::MotionModel motion_model;  ///< of alignment error, learned on the walk; nothing in it without
   bool metric = false;           ///< the displacement came in metres
-  double scale = 1;              ///< the displacement was multiplied by this to fit the route's
-  double unit = 0;               ///< displacement between keyframes (SSS Eq. 4); 0 without motion
+  vo::Trajectory trajectory;  ///< by that motion, at every frame; empty unless metres and headings are known
+  double scale = 1;           ///< the displacement was multiplied by this to fit the route's
+  double unit = 0;            ///< displacement between keyframes (SSS Eq. 4); 0 without motion
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
 };
 
