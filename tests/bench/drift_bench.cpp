@@ -16,8 +16,8 @@ struct Walk {
 
   explicit Walk(std::size_t nodes) {
     const vo::Trajectory truth = walk_round_corners(nodes, 1);
-    odometry =
-        drifted(truth, {.step_scale = 1.08, .turn_scale = 1.05, .step_noise_m = 0.08, .turn_noise_rad = 0.03});
+    odometry = drifted(
+        truth, {.step_scale = 1.08, .turn_scale = 1.05, .step_noise_m = 0.08, .turn_noise_rad = 0.03});
     fixes = fixes_of(truth, 2, 0.4, 0.2);
     replace_at_random(fixes, truth, 0.1, 1);
   }
