@@ -16,6 +16,7 @@ struct Command {
 Command add_odometry(CLI::App& root);
 Command add_build(CLI::App& root);
 Command add_localise(CLI::App& root);
+Command add_correct(CLI::App& root);
 Command add_evaluate(CLI::App& root);
 Command add_evaluate_odometry(CLI::App& root);
 Command add_sweep(CLI::App& root);

@@ -167,6 +167,54 @@ class CliTest(unittest.TestCase):
         self.assertAlmostEqual(read_json(self.folder / "calibrated" / "summary.json")["step_length_m"], 15 / len(steps), places=6)
         self.assertEqual([row["time_s"] for row in rows(self.folder / "calibrated" / "steps.csv")], [row["time_s"] for row in steps])
 
+    def test_corrects_drift_on_a_route_with_a_gps_track(self):
+        check("simulate", "--scene", "corridor", "--length-m", "25", "--seed", "2", "-o", self.folder / "walk")
+        video_file, truth = self.folder / "walk" / "walk.mp4", rows(self.folder / "walk" / "truth.csv")
+        # Degrees at 46 N as long as tables have them: 111147 m and 77466 m.
+        track = self.folder / "track.csv"
+        track.write_text("time_s,lat_deg,lon_deg\n" + "".join(
+            f"{row['time_s']},{46 + float(row['y_m']) / 111147:.9f},{7 + float(row['x_m']) / 77466:.9f}\n" for row in truth))
+        route, out = self.folder / "route.db", self.folder / "run"
+        check("build", video_file, "-o", route, "--track", track)
+        localise = ("localise", video_file, "--route", route, "--step-length", "0.75", "--sequence-length", "6")
+        check(*localise, "-o", out)
+        corrected = rows(out / "trajectory.csv")
+        self.assertEqual(list(corrected[0])[:11], ["query_frame", "time_s", "x_m", "y_m", "heading_deg", "cov_xx_m2", "cov_xy_m2",
+                                                   "cov_yy_m2", "heading_sd_deg", "distance_m", "lateral_m"])
+        matches = rows(out / "matches.csv")
+        self.assertEqual([row["query_frame"] for row in corrected], [row["query_frame"] for row in matches])
+        first = truth[0]
+        for row in corrected:
+            true = truth[int(row["query_frame"])]
+            # The walk is found on itself, so that half a keyframe's way is left, and the track's headings at its ends.
+            self.assertAlmostEqual(float(row["x_m"]), float(true["x_m"]) - float(first["x_m"]), delta=0.6)
+            self.assertAlmostEqual(float(row["y_m"]), float(true["y_m"]) - float(first["y_m"]), delta=0.6)
+        for name in ("trajectory.tum", "trajectory_odometry.tum"):
+            poses = [line for line in (out / name).read_text().splitlines() if line[0] != "#"]
+            self.assertEqual(len(poses), len(corrected))
+        line = read_json(out / "trajectory.geojson")["geometry"]["coordinates"]
+        self.assertEqual(len(line), len(corrected))
+        self.assertAlmostEqual(line[-1][1], 46 + float(truth[-1]["y_m"]) / 111147, delta=1e-5)
+        self.assertEqual((out / "trajectory.gpx").read_text().count("<trkpt"), len(corrected))
+        self.assertTrue(read_json(out / "summary.json")["drift"]["corrected"])
+
+        # From the files again, the same; from other odometry, as good; without, the matches' poses.
+        before = (out / "trajectory.csv").read_bytes()
+        check("correct", out, "--route", route)
+        for a, b in zip(corrected, rows(out / "trajectory.csv")):
+            self.assertAlmostEqual(float(a["x_m"]), float(b["x_m"]), delta=0.01)  # six decimals of odometry
+        check("odometry", video_file, "-o", self.folder / "odometry", "--close-loops")
+        self.assertEqual(read_json(self.folder / "odometry" / "summary.json")["loops"]["keyframes"], 0)
+        check("correct", out, "--route", route, "--odometry", self.folder / "odometry" / "trajectory.tum")
+        self.assertNotEqual(before, (out / "trajectory.csv").read_bytes())
+        self.assertAlmostEqual(float(rows(out / "trajectory.csv")[-1]["x_m"]), float(corrected[-1]["x_m"]), delta=0.3)
+        check(*localise, "-o", out, "--force", "--correct-drift", "false")
+        self.assertFalse((out / "trajectory.csv").exists())
+        self.assertFalse(read_json(out / "summary.json")["drift"]["corrected"])
+        (self.folder / "short.tum").write_text("0 0 0 0 0 0 0 1\n")
+        self.refused("correct", out, "--route", route, "--odometry", self.folder / "short.tum", says="short.tum: has no pose at")
+        self.refused("correct", out, "--route", self.walks.route, says="is not on the route")
+
     def test_refuses_odometry_it_cannot_do(self):
         walk = ("odometry", self.walks.query, "-o", self.folder / "out")
         self.refused(*walk, "--image-rate-hz", "7", says="7 frames/s, too few to see steps; expected more than 8", leaves=("out",))
@@ -566,7 +614,7 @@ class CliTest(unittest.TestCase):
     # ---- help ----
 
     def test_help_shows_units_defaults_and_examples(self):
-        for command in ("build", "localise", "evaluate", "odometry", "evaluate-odometry", "inspect", "config"):
+        for command in ("build", "localise", "correct", "evaluate", "odometry", "evaluate-odometry", "inspect", "config"):
             text = check(command, "--help")
             self.assertIn("Example", text)
             self.assertIn(f"retrace {command}", text)
