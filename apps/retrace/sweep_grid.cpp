@@ -108,7 +108,9 @@ Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const 
   if (sampling.motion == vo::MotionSource::kFile)
     throw vo::Error("motion=file", "cannot be swept", "a motion that both walks show themselves");
   if (sampling.motion != vo::MotionSource::kNone) sampling.every = 1;
-  if (sampling.motion != vo::MotionSource::kSteps) sampling.spacing_m.reset();
+  const bool metric =
+      sampling.motion == vo::MotionSource::kSteps || sampling.motion == vo::MotionSource::kHybrid;
+  if (!metric) sampling.spacing_m.reset();
   resolve(app, settings);
   return settings;
 }
