@@ -29,6 +29,7 @@ struct BuildOptions {
   std::string name;
   std::string truth;
   std::string trajectory;
+  std::string track;
 };
 
 /// The traverse's name where none is given: the recording's, without folders and ending.
@@ -43,6 +44,16 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
     if (traverse.name == options.name && !options.common.force) {
       throw vo::Error(options.output, fmt::format("already has a traverse '{}'", options.name),
                       "another --name, or --force to replace it");
+    }
+  }
+}
+
+/// A track's poses are metres about the route's origin; other coordinates on the route would not fit them.
+void check_poses_are_geographic(const place::Route& route, const std::string& path) {
+  for (const place::Traverse& traverse : route.traverses) {
+    if (!route.origin && traverse.surveyed && !traverse.pose_source.empty()) {
+      throw vo::Error(path, fmt::format("has poses of {} that are not geographic", traverse.pose_source),
+                      "--truth or --trajectory in the same coordinates, or another route");
     }
   }
 }
@@ -104,12 +115,17 @@ void build(const CLI::App& app, BuildOptions& options) {
   vo::Walk walk;
   {
     ProgressBar bar;
-    walk = vo::read_walk(options.walk, settings.walk, bar.callback());
+    walk = read_walk(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   std::optional<place::Survey> survey;
   if (!options.truth.empty()) survey = survey_from_truth(options.truth, walk);
   if (!options.trajectory.empty()) survey = survey_from_trajectory(options.trajectory, walk);
+  if (!options.track.empty()) {
+    check_poses_are_geographic(route, options.output);
+    survey = survey_from_track(options.track, walk, route.origin);
+  }
+  if (!survey) survey = survey_from_odometry(walk, settings.sampling.motion.pedestrian);
 
   const AddedTraverse added = add_traverse(route, options.name, walk, survey, settings);
   place::write_route(options.output, route);
@@ -131,6 +147,7 @@ AddedTraverse add_traverse(place::Route& route, const std::string& name, const v
   place::Traverse traverse = place::make_traverse(name, walk, sampled, survey);
   for (const SettingEntry& entry : entries(settings)) traverse.settings[entry.name] = entry.value;
   route.sampling.unit = sampled.unit;
+  if (reference == nullptr) route.sampling.metric = sampled.metric;
   return {put(route, std::move(traverse)), sampled.scale};
 }
 
@@ -145,6 +162,10 @@ Command add_build(CLI::App& root) {
   app->add_option("--trajectory", options->trajectory,
                   "surveyed poses of the walk, TUM format, seconds since its first frame")
       ->excludes(truth);
+  app->add_option("--track", options->track,
+                  "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg")
+      ->excludes(truth)
+      ->excludes("--trajectory");
   add_frame_options(*app, options->settings);
   add_sampling_options(*app, options->settings);
   add_odometry_options(*app, options->settings);

@@ -16,8 +16,11 @@ struct Command {
 Command add_odometry(CLI::App& root);
 Command add_build(CLI::App& root);
 Command add_localise(CLI::App& root);
+Command add_correct(CLI::App& root);
 Command add_evaluate(CLI::App& root);
 Command add_evaluate_odometry(CLI::App& root);
+Command add_sweep(CLI::App& root);
+Command add_compare(CLI::App& root);
 Command add_inspect(CLI::App& root);
 Command add_simulate(CLI::App& root);
 Command add_demo(CLI::App& root);

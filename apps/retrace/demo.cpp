@@ -98,11 +98,11 @@ Run find(const DrawnWalk& day, const DrawnWalk& night, const Settings& sampled_s
     run.every = settings.sampling.sampling.every;
   run.localised = localise_walk(route, route_file.string(), night.walk, settings, folder);
   run.evaluated = evaluate_run({.folder = folder.string(),
-                                .pairs = {},
-                                .query_truth = night.truth(),
-                                .reference_truth = day.truth(),
-                                .tolerance_m = kTolerance_m,
-                                .tolerance_frames = {}});
+                                .truth = {.pairs = {},
+                                          .query_truth = night.truth(),
+                                          .reference_truth = day.truth(),
+                                          .tolerance_m = kTolerance_m,
+                                          .tolerance_frames = {}}});
   return run;
 }
 

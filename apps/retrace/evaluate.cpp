@@ -5,6 +5,7 @@
 #include "report/run_data.hpp"
 #include "report/run_report.hpp"
 #include "run_directory.hpp"
+#include "trajectory_metrics.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -17,7 +18,6 @@
 #include <place/ground_truth.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/atomic_file.hpp>
-#include <vo/io/trajectory_io.hpp>
 
 namespace retrace {
 namespace {
@@ -29,23 +29,6 @@ struct EvaluateOptions {
   CommonOptions common;
   EvaluationInputs inputs;
 };
-
-void read_ground_truth(const EvaluationInputs& inputs, RunTruth& run) {
-  place::GroundTruth& truth = run.truth;
-  if (!inputs.reference_truth.empty())
-    truth.reference_distance_m = vo::read_truth(inputs.reference_truth).distance_m;
-  if (!inputs.pairs.empty()) {
-    truth.pairs = place::read_pairs(inputs.pairs);
-    if (inputs.tolerance_m && truth.reference_distance_m.empty()) {
-      throw vo::Error("--tolerance-m", "needs distances, which --pairs has not",
-                      "--tolerance-frames, or --reference-truth beside --pairs");
-    }
-  } else {
-    vo::WalkTruth query = vo::read_truth(inputs.query_truth);
-    truth.query_distance_m = std::move(query.distance_m);
-    run.poses = std::move(query.poses);
-  }
-}
 
 ordered_json point_json(const place::OperatingPoint& point) {
   return {{"threshold", point.threshold},
@@ -111,7 +94,8 @@ std::string pr_csv(const place::Evaluation& evaluation) {
 std::string errors_csv(const std::vector<MatchRow>& rows, const std::vector<place::ScoredQuery>& queries) {
   std::string csv = "query_frame,query_time_s,score,accepted,has_truth,error\n";
   const auto cell = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.9g}", *value) : std::string();
+    return value ? fmt::format("{}", *value)
+                 : std::string();  // every digit: some errors lie on the tolerance
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     csv += fmt::format("{},{:.6f},{},{},{},{}\n", rows[i].query_frame, rows[i].query_time_s,
@@ -154,27 +138,19 @@ EvaluatedRun evaluate_run(const EvaluationInputs& inputs) {
     throw vo::Error(inputs.folder, "is no folder", "one written by `retrace localise`");
   prepare_run_directory(folder, {}, true);
   const std::vector<MatchRow> rows = read_matches(folder / "matches.csv");
-  RunTruth truth;
-  read_ground_truth(inputs, truth);
-  truth.unit = inputs.tolerance_m ? place::ErrorUnit::kMetres : place::ErrorUnit::kFrames;
-  truth.tolerance = inputs.tolerance_m ? *inputs.tolerance_m : *inputs.tolerance_frames;
-
+  RunTruth truth = read_truth(inputs.truth);
   std::vector<place::ScoredQuery> queries;
-  for (const MatchRow& row : rows) {
-    const place::PlaceError& error = truth.errors.emplace_back(
-        place::place_error(truth.truth, row.query_frame, row.reference_frame, truth.unit, truth.tolerance));
-    queries.push_back({.score = row.reference_frame ? std::optional(row.score) : std::nullopt,
-                       .has_truth = error.has_truth,
-                       .error = error.error});
-  }
+  for (const MatchRow& row : rows)
+    queries.push_back(judge(truth, row.query_frame, row.reference_frame, row.score));
   truth.evaluation = place::evaluate(queries, truth.tolerance);
   if (truth.evaluation.with_truth == 0) {
-    throw vo::Error(inputs.pairs.empty() ? inputs.query_truth : inputs.pairs,
-                    "gives no query keyframe a true place", "the truth of this query and this reference");
+    throw vo::Error(truth_file(inputs.truth), "gives no query keyframe a true place",
+                    "the truth of this query and this reference");
   }
   truth.accepted = accepted_point(rows, queries, truth.tolerance);
   std::string unit = name_of(truth.unit);
   ordered_json metrics = metrics_json(truth.evaluation, truth.accepted, truth.tolerance, unit);
+  if (!inputs.query_truth.empty()) metrics.update(trajectory_metrics(folder, inputs.query_truth));
   vo::write_file(folder / "metrics.json", metrics.dump(2) + "\n");
   vo::write_file(folder / "pr.csv", pr_csv(truth.evaluation));
   vo::write_file(folder / "errors.csv", errors_csv(rows, queries));
@@ -186,21 +162,7 @@ Command add_evaluate(CLI::App& root) {
   auto options = std::make_shared<EvaluateOptions>();
   CLI::App* app = root.add_subcommand("evaluate", "precision, recall and errors of a run against the truth");
   app->add_option("run", options->inputs.folder, "folder written by `retrace localise`")->required();
-  auto* truth = app->add_option_group("truth", "where the query truly was");
-  truth->add_option("--pairs", options->inputs.pairs,
-                    "landmarks: query_frame,reference_frame, interpolated between them");
-  CLI::Option* query =
-      truth->add_option("--query-truth", options->inputs.query_truth, "truth.csv of the query");
-  truth->require_option(1);
-  CLI::Option* reference =
-      app->add_option("--reference-truth", options->inputs.reference_truth, "truth.csv of the reference");
-  query->needs(reference);
-  auto* tolerance = app->add_option_group("tolerance", "how far off is still right");
-  tolerance->add_option("--tolerance-m", options->inputs.tolerance_m, "metres along the route [SSS 4.2: 4]")
-      ->check(CLI::NonNegativeNumber);
-  tolerance->add_option("--tolerance-frames", options->inputs.tolerance_frames, "reference frames")
-      ->check(CLI::NonNegativeNumber);
-  tolerance->require_option(1);
+  add_truth_options(*app, options->inputs.truth);
   add_json_option(*app, options->common);
   app->add_flag("--force", options->common.force,
                 "accepted for symmetry: results of an evaluation are always renewed")

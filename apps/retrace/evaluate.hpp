@@ -1,6 +1,7 @@
 #pragma once
 
-#include <optional>
+#include "truth_options.hpp"
+
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -11,12 +12,8 @@ namespace retrace {
 
 /// A run and the truth to hold it against.
 struct EvaluationInputs {
-  std::string folder;                 ///< written by `retrace localise`
-  std::string pairs;                  ///< pairs.csv; or else
-  std::string query_truth;            ///< truth.csv of the query,
-  std::string reference_truth;        ///< and of the reference, which may also stand beside `pairs`
-  std::optional<double> tolerance_m;  ///< this or the other
-  std::optional<double> tolerance_frames;
+  std::string folder;  ///< written by `retrace localise`
+  TruthOptions truth;
 };
 
 /// A run held against the truth, as written to its folder.

@@ -58,6 +58,7 @@ ordered_json as_json(const std::string& path, const place::Route& route) {
          {"duration_s", traverse.duration_s},
          {"frame_size", {traverse.frame_width_px, traverse.frame_height_px}},
          {"pose_source", traverse.pose_source},
+         {"surveyed", traverse.surveyed},
          {"keyframes", traverse.keyframes.size()},
          {"poses", poses},
          {"previews", previews},
@@ -80,7 +81,7 @@ void print(const std::string& path, const place::Route& route) {
   if (route.sampling.motion == vo::MotionSource::kNone) {
     fmt::print("sampling: every {} frames\n", route.sampling.every);
   } else {
-    const bool metric = route.sampling.motion == vo::MotionSource::kSteps;
+    const bool metric = route.sampling.metric;
     fmt::print("sampling: by {}, unit {:.4f} {} (n = {})\n", vo::name_of(route.sampling.motion),
                route.sampling.unit, metric ? "m" : "frames of mean speed", route.sampling.n);
   }
@@ -91,7 +92,8 @@ void print(const std::string& path, const place::Route& route) {
     const auto surveyed =
         std::ranges::count_if(traverse.keyframes, [](const auto& k) { return k.pose.has_value(); });
     if (surveyed > 0) {
-      fmt::print("  {} poses from {}", surveyed, traverse.pose_source);
+      fmt::print("  {} poses from {}", surveyed,
+                 traverse.surveyed ? traverse.pose_source : "its own odometry, not surveyed");
       const auto &first = traverse.keyframes.front().distance_m, &last = traverse.keyframes.back().distance_m;
       if (first && last) fmt::print(", {:.2f} m", *last - *first);
       fmt::print("\n");

@@ -3,6 +3,7 @@
 #include "command.hpp"
 #include "matches_file.hpp"
 #include "progress_bar.hpp"
+#include "query_trajectory.hpp"
 #include "report/matrix_picture.hpp"
 #include "report/run_data.hpp"
 #include "report/run_report.hpp"
@@ -10,6 +11,7 @@
 #include "run_directory.hpp"
 #include "settings.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -21,7 +23,6 @@
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/io/atomic_file.hpp>
-#include <vo/io/trajectory_io.hpp>
 
 namespace retrace {
 namespace {
@@ -38,16 +39,6 @@ struct LocaliseOptions {
   bool save_matrices = false;
 };
 
-/// The accepted matches' surveyed poses at the query's times: where the walker was.
-std::string trajectory_tum(const std::vector<place::Match>& matches) {
-  vo::Trajectory trajectory;
-  for (const place::Match& match : matches) {
-    if (match.accepted && match.place->pose) trajectory.push_back({match.query_time_s, *match.place->pose});
-  }
-  return vo::to_tum(trajectory,
-                    trajectory.empty()
-                        ? "no pose: the route has none (build it with --truth or --trajectory), or no match"
-                        : "query time, surveyed pose of the matched reference keyframe");
 }
 
 /// One line for each row, nine digits, which tell floats apart.
@@ -62,9 +53,21 @@ std::string matrix_csv(const place::CostMatrix& matrix) {
   return fmt::to_string(text);
 }
 
+ordered_json drift_summary(const QueryTrajectory& trajectory) {
+  if (!trajectory.why_not.empty()) return {{"corrected", false}, {"reason", trajectory.why_not}};
+  const place::CorrectedWalk& walk = trajectory.corrected;
+  // Half of its weight gone, a match is let go.
+  const auto believed = std::ranges::count_if(walk.fix_weight, [](double weight) { return weight >= 0.5; });
+  return {{"corrected", true},
+          {"matches_used", trajectory.fixes.size()},
+          {"matches_believed", believed},
+          {"step_scale", walk.step_scale.back()},
+          {"turn_scale", walk.turn_scale.back()}};
+}
+
 ordered_json summary(const place::Route& route, const std::string& route_path, const vo::Walk& walk,
                      const Settings& settings, const place::SampledWalk& sampled,
-                     const place::Localisation& found) {
+                     const place::Localisation& found, const QueryTrajectory& trajectory) {
   std::size_t matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
   for (const place::Match& match : found.matches) {
     matched += match.place ? 1 : 0;
@@ -89,6 +92,7 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
                     {"relative_scale", sampled.scale},
                     {"warnings", walk.warnings},
                     {"version", place::kVersion}};
+  json["drift"] = drift_summary(trajectory);
   for (const place::Traverse& traverse : route.traverses) {
     json["traverses"].push_back({{"name", traverse.name}, {"keyframes", traverse.keyframes.size()}});
   }
@@ -120,14 +124,16 @@ void localise(const CLI::App& app, LocaliseOptions& options) {
     throw vo::Error(options.route, "has no traverse", "a route built by `retrace build`");
   take_from_route(app, options.route, route, settings);
   const fs::path folder = options.output;
-  prepare_run_directory(
-      folder, {"matches.csv", "trajectory.tum", "summary.json", "report.html", kRunDataFile, "config.toml"},
-      options.common.force);
+  prepare_run_directory(folder,
+                        {"matches.csv", "trajectory.tum", "trajectory_odometry.tum", "trajectory.csv",
+                         "summary.json", "report.html", kRunDataFile, "config.toml"},
+                        options.common.force);
+  if (settings.correct_drift && has_poses(route)) settings.walk.track_features = true;
 
   vo::Walk walk;
   {
     ProgressBar bar;
-    walk = vo::read_walk(options.walk, settings.walk, bar.callback());
+    walk = read_walk(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   const auto [found, json] =
@@ -150,9 +156,13 @@ LocalisedWalk localise_walk(const place::Route& route, const std::string& route_
   localiser.whole_matrices = save_matrices;
   place::Localisation found = place::localise(route, walk, sampled, localiser);
 
-  ordered_json json = summary(route, route_path, walk, settings, sampled, found);
+  const QueryTrajectory trajectory = query_trajectory(route, walk, sampled, found.matches, settings);
+  if (trajectory.asked_for && !trajectory.why_not.empty())
+    spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
+                 trajectory.why_not);
+  ordered_json json = summary(route, route_path, walk, settings, sampled, found, trajectory);
   vo::write_file(folder / "matches.csv", matches_csv(found.matches));
-  vo::write_file(folder / "trajectory.tum", trajectory_tum(found.matches));
+  write_trajectory(trajectory, route, found.matches, folder);
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
   const ordered_json data = run_data(route, walk, sampled, found.matches, found.matrices);

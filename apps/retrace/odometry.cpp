@@ -1,4 +1,5 @@
 #include "choice.hpp"
+#include "close_loops.hpp"
 #include "command.hpp"
 #include "progress_bar.hpp"
 #include "report/odometry_report.hpp"
@@ -37,6 +38,7 @@ struct OdometryOptions {
   std::string output;
   std::optional<double> walk_length_m;
   bool visual_odometry = false;
+  bool close_loops = false;
 };
 
 std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
@@ -175,12 +177,20 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   const vo::WalkMotion walked = walked_motion(walk, settings);
   const vo::PedestrianMotion& motion = *walked.pedestrian;
 
-  const ordered_json json = summary(walk, walked, pedestrian.step_length.length_m);
+  ordered_json json = summary(walk, walked, pedestrian.step_length.length_m);
+  vo::Trajectory trajectory = walked.trajectory;
+  if (options.close_loops) {
+    ClosedLoops closed = close_loops(walk, walked, {.patch = settings.patch});
+    json["loops"] = {{"keyframes", closed.loops}, {"believed", closed.believed}};
+    trajectory = std::move(closed.trajectory);
+    vo::write_file(folder / "trajectory_odometry.tum",
+                   vo::to_tum(walked.trajectory, "the same before loops were closed"));
+  }
   vo::write_file(folder / "frames.csv", frames_csv(walk, walked));
   vo::write_file(folder / "steps.csv", steps_csv(walked));
   vo::write_file(folder / "activity.csv", activity_csv(motion));
   vo::write_file(folder / "trajectory.tum",
-                 vo::to_tum(walked.trajectory, "pose of each frame, metres and radians since the first"));
+                 vo::to_tum(trajectory, "pose of each frame, metres and radians since the first"));
   if (options.visual_odometry) write_visual_odometry(walk, folder);
   vo::write_file(folder / "summary.json", json.dump(2) + "\n");
   vo::write_file(folder / "config.toml", to_toml(settings));
@@ -199,6 +209,10 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
       fmt::format("steps of {:.3f} m", pedestrian.step_length.length_m));
   row("duration", fmt::format("{:.1f} s", walk.time_s.back()),
       fmt::format("{} frames, {} with too few points", walk.frames(), motion.signal.bridged));
+  if (options.close_loops) {
+    row("loops", json["loops"]["keyframes"].dump(),
+        fmt::format("places seen before, {} of them believed", json["loops"]["believed"].dump()));
+  }
   fmt::print("see {}\n", (folder / "report.html").string());
 }
 
@@ -218,6 +232,8 @@ Command add_odometry(CLI::App& root) {
   add_choice(*app, "Pedestrian odometry", "--motion", options->settings.sampling.sampling.motion,
              {{"hybrid", vo::MotionSource::kHybrid}, {"steps", vo::MotionSource::kSteps}},
              "displacement by steps and visual odometry [SSS 3.5], or by steps alone [PVO]");
+  app->add_flag("--close-loops", options->close_loops,
+                "find where the walk comes back to its own path, and correct the trajectory's drift by it");
   add_frame_options(*app, options->settings);
   add_odometry_options(*app, options->settings);
   add_general_options(*app, options->settings);

@@ -71,6 +71,17 @@ void add_sampling_options(CLI::App& app, Settings& s) {
               {"none", vo::MotionSource::kNone}},
              "what walks are resampled by: alignment error [SSS 3.2], steps [PVO], both and visual odometry "
              "[SSS 3.5], visual odometry alone, the trajectory of --motion-file, or nothing");
+  add(app, kSampling, "--motion-file", s.motion_file,
+      "trajectory for --motion file: TUM, KITTI, or CSV with time_s,x_m,y_m; metres")
+      ->check(CLI::ExistingFile);
+  add(app, kSampling, "--motion-file-start-s", s.external.start_s,
+      "seconds that the trajectory's clock shows at the first frame");
+  add(app, kSampling, "--motion-file-tolerance-s", s.external.time_tolerance_s,
+      "seconds that a lone pose may be away from its frame")
+      ->check(CLI::NonNegativeNumber);
+  add(app, kSampling, "--motion-file-gap-s", s.external.max_gap_s,
+      "seconds between poses beyond which the trajectory is lost; alignment error takes its place")
+      ->check(CLI::NonNegativeNumber);
   add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
       ->check(CLI::Range(1, 1000000));
   add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
@@ -147,6 +158,11 @@ void add_odometry_options(CLI::App& app, Settings& s) {
 }
 
 void add_search_options(CLI::App& app, Settings& s) {
+  add_choice(app, kSearch, "--candidates", s.localiser.candidate_use,
+             {{"auto", place::CandidateUse::kAuto},
+              {"never", place::CandidateUse::kNever},
+              {"always", place::CandidateUse::kAlways}},
+             "compare with a shortlist of the reference only; auto does so from 1000 on 100000 keyframes up");
   add(app, kSearch, "--max-shift-px", s.localiser.cost.max_shift_px,
       "pixels of the thumbnail, sideways, within which the query is moved to fit best")
       ->check(CLI::Range(0, 100));
@@ -180,6 +196,9 @@ void add_search_options(CLI::App& app, Settings& s) {
       "reference keyframes around a match that do not compete with it [SeqSLAM's Rwindow]")
       ->check(CLI::Range(0, 1000000));
   add(app, kSearch, "--accept-score", s.localiser.acceptance_threshold, "least score of an accepted match");
+  add(app, kSearch, "--correct-drift", s.correct_drift,
+      "true: follow the walk's steps too and correct their drift by the matches, where the route has poses")
+      ->default_str(s.correct_drift ? "true" : "false");
   add_choice(app, kSearch, "--compat", s.compatibility,
              {{"none", Compatibility::kNone},
               {"openseqslam", Compatibility::kOpenSeqSlam},
@@ -234,6 +253,21 @@ bool given(const CLI::App& app, const std::string& option) {
 
 void follow_motion(Settings& settings) {
   vo::keep_for(settings.sampling.sampling.motion, settings.walk);
+}
+
+vo::Walk read_walk(const std::string& source, const Settings& settings,
+                   const vo::ProgressCallback& progress) {
+  const bool by_file = settings.sampling.sampling.motion == vo::MotionSource::kFile;
+  if (by_file == settings.motion_file.empty()) {
+    throw vo::Error("--motion-file", by_file ? "is missing" : "has no meaning without --motion file",
+                    "--motion file --motion-file TRAJECTORY");
+  }
+  vo::Walk walk = vo::read_walk(source, settings.walk, progress);
+  if (by_file) {
+    walk.track =
+        vo::external_trajectory(vo::read_pose_series(settings.motion_file), walk.time_s, settings.external);
+  }
+  return walk;
 }
 
 void resolve(const CLI::App& app, Settings& settings) {

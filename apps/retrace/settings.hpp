@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <place/localiser.hpp>
+#include <vo/motion/external_trajectory.hpp>
 #include <vo/odometry.hpp>
 
 /// Everything a user can set, declared to CLI11 once: flags, TOML, --help, validation and the saved
@@ -24,8 +25,11 @@ struct Settings {
   vo::PatchNormalisationOptions patch;
   place::WalkSamplingOptions sampling;
   place::LocaliserOptions localiser;
-  std::string camera;  ///< calibration file; empty: by the field of view
+  std::string camera;                      ///< calibration file; empty: by the field of view
+  std::string motion_file;                 ///< trajectory for --motion file
+  vo::ExternalTrajectoryOptions external;  ///< how it is matched to frames
   Compatibility compatibility = Compatibility::kNone;
+  bool correct_drift = true;
   int threads = 0;
 };
 
@@ -61,6 +65,9 @@ bool given(const CLI::App& app, const std::string& option);
 
 /// Has what the motion source needs kept of the walk.
 void follow_motion(Settings& settings);
+
+/// Reads a recording with what the settings ask to be kept, and with --motion file gives it the file's track.
+vo::Walk read_walk(const std::string& source, const Settings& settings, const vo::ProgressCallback& progress);
 
 /// Puts the settings that follow from others in place (the original's options from --compat). Throws
 /// `vo::Error` for settings that do not go together.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <place/geographic.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/trajectory_io.hpp>
 
@@ -15,27 +16,11 @@ std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-}  // namespace
-
-place::Survey survey_from_truth(const std::string& path, const vo::Walk& walk) {
-  const vo::WalkTruth truth = vo::read_truth(path);
-  if (truth.frame.size() != walk.frames()) {
-    throw vo::Error(path, fmt::format("has {} rows", truth.frame.size()),
-                    fmt::format("{}, one for each frame of {}", walk.frames(), walk.source));
-  }
-  place::Survey survey{.source = file_name(path), .pose = {}, .distance_m = {}};
-  for (std::size_t i = 0; i < walk.frames(); ++i) {
-    survey.pose.emplace_back(truth.poses[i].pose);
-    survey.distance_m.emplace_back(truth.distance_m[i]);
-  }
-  return survey;
-}
-
-place::Survey survey_from_trajectory(const std::string& path, const vo::Walk& walk) {
-  const vo::Trajectory trajectory = vo::read_tum(path);
+/// The poses of a trajectory at the walk's frames.
+place::Survey survey_of(const vo::Trajectory& trajectory, const std::string& path, const vo::Walk& walk) {
   // A pose may lie up to a frame before the first or after the last.
   const double tolerance_s = walk.time_s.back() / static_cast<double>(walk.frames() - 1);
-  place::Survey survey{.source = file_name(path), .pose = {}, .distance_m = {}};
+  place::Survey survey{.source = file_name(path), .surveyed = true, .pose = {}, .distance_m = {}};
   std::optional<vo::Pose2> before;
   double travelled_m = 0;
   for (const double time_s : walk.time_s) {
@@ -51,6 +36,44 @@ place::Survey survey_from_trajectory(const std::string& path, const vo::Walk& wa
                                 trajectory.front().time_s, trajectory.back().time_s),
                     fmt::format("times from 0 to {:.3f} s, since the first frame", walk.time_s.back()));
   }
+  return survey;
+}
+
+}  // namespace
+
+place::Survey survey_from_truth(const std::string& path, const vo::Walk& walk) {
+  const vo::WalkTruth truth = vo::read_truth(path);
+  if (truth.frame.size() != walk.frames()) {
+    throw vo::Error(path, fmt::format("has {} rows", truth.frame.size()),
+                    fmt::format("{}, one for each frame of {}", walk.frames(), walk.source));
+  }
+  place::Survey survey{.source = file_name(path), .surveyed = true, .pose = {}, .distance_m = {}};
+  for (std::size_t i = 0; i < walk.frames(); ++i) {
+    survey.pose.emplace_back(truth.poses[i].pose);
+    survey.distance_m.emplace_back(truth.distance_m[i]);
+  }
+  return survey;
+}
+
+place::Survey survey_from_trajectory(const std::string& path, const vo::Walk& walk) {
+  return survey_of(vo::read_tum(path), path, walk);
+}
+
+place::Survey survey_from_track(const std::string& path, const vo::Walk& walk,
+                                std::optional<place::GeographicOrigin>& origin) {
+  const place::GeographicTrack track = place::read_track(path);
+  if (!origin) origin = {track.points.front().latitude_deg, track.points.front().longitude_deg};
+  return survey_of(place::local_trajectory(track, *origin), path, walk);
+}
+
+std::optional<place::Survey> survey_from_odometry(const vo::Walk& walk,
+                                                  const vo::PedestrianMotionOptions& options) {
+  if (walk.tracked.empty()) return std::nullopt;
+  const vo::PedestrianMotion motion = vo::pedestrian_motion(walk, options);
+  if (motion.detection.steps.empty()) return std::nullopt;
+  place::Survey survey{.source = "odometry", .surveyed = false, .pose = {}, .distance_m = {}};
+  for (const vo::TimedPose& frame : motion.trajectory.at_frame) survey.pose.emplace_back(frame.pose);
+  survey.distance_m.resize(walk.frames());
   return survey;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <place/localiser.hpp>
@@ -14,5 +15,15 @@ place::Survey survey_from_truth(const std::string& path, const vo::Walk& walk);
 /// outside it have no pose; the distance is the length of the path between the frames' positions. Throws
 /// `vo::Error` if no frame has a pose.
 place::Survey survey_from_trajectory(const std::string& path, const vo::Walk& walk);
+
+/// The same from a GPS track (`place::read_track`) on the clock of the walk, a GPX file's since its first
+/// point. Poses are metres about the origin, which becomes the track's first point if there is none.
+place::Survey survey_from_track(const std::string& path, const vo::Walk& walk,
+                                std::optional<place::GeographicOrigin>& origin);
+
+/// For a walk that nobody surveyed: the poses of its own odometry, from (0, 0), without distances. None if it
+/// was read without tracked points or shows no steps.
+std::optional<place::Survey> survey_from_odometry(const vo::Walk& walk,
+                                                  const vo::PedestrianMotionOptions& options);
 
 }  // namespace retrace

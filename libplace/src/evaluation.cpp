@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <vo/base/percentile.hpp>
+
 namespace place {
 namespace {
 
@@ -35,14 +37,6 @@ struct Counts {
     return point;
   }
 };
-
-/// Linear interpolation between order statistics, as numpy's default.
-double percentile(const std::vector<double>& sorted, double share) {
-  const double position = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(position);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return std::lerp(sorted[low], sorted[high], position - static_cast<double>(low));
-}
 
 std::size_t count_with_truth(std::span<const ScoredQuery> queries) {
   return static_cast<std::size_t>(std::ranges::count_if(queries, &ScoredQuery::has_truth));
@@ -103,6 +97,7 @@ Evaluation evaluate(std::span<const ScoredQuery> queries, double tolerance) {
 
   if (!errors.empty()) {
     std::ranges::sort(errors);
+    using vo::percentile;
     result.errors = ErrorPercentiles{.p50 = percentile(errors, 0.5),
                                      .p75 = percentile(errors, 0.75),
                                      .p90 = percentile(errors, 0.9),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -48,42 +49,71 @@ struct Candidate {
   bool partial = false;
 };
 
-/// Puts rows of a matrix into one of which every cell is the least of `shrink` by `shrink`.
-void shrink_rows(std::size_t first, std::span<const float> rows, std::size_t references, std::size_t shrink,
-                 CostMatrix& shrunk) {
-  vo::parallel_for(shrunk.references, [&](std::size_t column) {
-    const std::size_t begin = column * shrink, end = std::min(references, begin + shrink);
-    for (std::size_t i = 0; i * references < rows.size(); ++i) {
-      const auto least = *std::min_element(&rows[i * references] + begin, &rows[i * references] + end);
-      float& cell = shrunk.row((first + i) / shrink)[column];
-      cell = (first + i) % shrink == 0 ? least : std::min(cell, least);
+/// Puts rows of a matrix into one of which every cell is the least of `shrink` by `shrink`; a row's values
+/// are those of the references `columns`.
+void shrink_rows(std::size_t first, std::span<const float> rows, const std::vector<std::size_t>& columns,
+                 std::size_t shrink, CostMatrix& shrunk) {
+  const std::size_t width = columns.size(), count = rows.size() / width;
+  vo::parallel_for((first + count - 1) / shrink - first / shrink + 1, [&](std::size_t i) {
+    const std::size_t cell_row = first / shrink + i;
+    const std::span<float> cells = shrunk.row(cell_row);
+    for (std::size_t q = std::max(first, cell_row * shrink);
+         q < std::min(first + count, (cell_row + 1) * shrink); ++q) {
+      const float* row = rows.data() + (q - first) * width;
+      for (std::size_t j = 0; j < width; ++j) {
+        float& cell = cells[shrink == 1 ? columns[j] : columns[j] / shrink];
+        cell = std::min(cell, row[j]);
+      }
     }
   });
 }
 
-std::vector<Candidate> search_our_way(const vo::ImageStack& query, const vo::ImageStack& reference,
-                                      const Route& route, const LocaliserOptions& options, int length,
-                                      SearchMatrices& matrices) {
+/// The references that are compared with: all, or of very many a shortlist.
+std::vector<std::size_t> references_to_compare(const vo::ImageStack& query, const vo::ImageStack& reference,
+                                               const LocaliserOptions& options, int length) {
+  // A shortlist takes about as long as comparing all references with 400 queries (tests/bench/README.md).
+  constexpr std::size_t kManyQueries = 1000, kManyReferences = 100'000;
+  const bool many = query.size() >= kManyQueries && reference.size() >= kManyReferences;
+  if (options.candidate_use == CandidateUse::kAlways ||
+      (options.candidate_use == CandidateUse::kAuto && many)) {
+    CandidateOptions settings = options.candidates;
+    settings.margin = std::max(settings.margin, length);
+    return candidates(query, reference, settings);
+  }
+  std::vector<std::size_t> all(reference.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+std::vector<Candidate> search_our_way(const vo::ImageStack& query_thumbnails,
+                                      const vo::ImageStack& reference_thumbnails, const Route& route,
+                                      const LocaliserOptions& options, int length, SearchMatrices& matrices) {
+  const vo::ImageStack query = vo::patch_normalise(query_thumbnails, route.patch);
+  vo::ImageStack reference = vo::patch_normalise(reference_thumbnails, route.patch);
+  const auto parts = [](std::size_t count, std::size_t of) { return (count + of - 1) / of; };
+  if (!options.whole_matrices)
+    matrices.shrink =
+        std::max<std::size_t>(1, parts(std::max(query.size(), reference.size()), kLargestMatrix));
+  for (CostMatrix* matrix : {&matrices.cost, &matrices.enhanced}) {
+    *matrix =
+        make_cost_matrix(parts(query.size(), matrices.shrink), parts(reference.size(), matrices.shrink));
+    std::ranges::fill(matrix->values, std::numeric_limits<float>::infinity());
+  }
+  const std::vector<std::size_t> columns = references_to_compare(query, reference, options, length);
+  if (columns.size() < reference.size()) reference = vo::select(reference, columns);
   StreamedSearchOptions streamed{
       .cost = options.cost, .enhancement = options.enhancement, .search = options.search};
   streamed.search.length = length;
-  const auto parts = [](std::size_t count, std::size_t of) { return (count + of - 1) / of; };
-  const std::size_t references = reference.size();
-  if (!options.whole_matrices)
-    matrices.shrink = std::max<std::size_t>(1, parts(std::max(query.size(), references), kLargestMatrix));
-  for (CostMatrix* matrix : {&matrices.cost, &matrices.enhanced})
-    *matrix = make_cost_matrix(parts(query.size(), matrices.shrink), parts(references, matrices.shrink));
   const auto keep = [&](const MatrixRows& rows) {
-    shrink_rows(rows.first, rows.cost, references, matrices.shrink, matrices.cost);
-    shrink_rows(rows.first, rows.enhanced, references, matrices.shrink, matrices.enhanced);
+    shrink_rows(rows.first, rows.cost, columns, matrices.shrink, matrices.cost);
+    shrink_rows(rows.first, rows.enhanced, columns, matrices.shrink, matrices.enhanced);
   };
-  std::vector<Candidate> candidates;
-  for (const SequenceMatch& found :
-       search_streamed(vo::patch_normalise(query, route.patch), vo::patch_normalise(reference, route.patch),
-                       streamed, keep)) {  // SSS 3.4
-    candidates.push_back({found.reference, found.score, found.reference && found.terms < length});
+  std::vector<Candidate> found;
+  for (const SequenceMatch& match : search_streamed(query, reference, streamed, keep)) {  // SSS 3.4
+    found.push_back({match.reference ? std::optional(columns[*match.reference]) : std::nullopt, match.score,
+                     match.reference && match.terms < length});
   }
-  return candidates;
+  return found;
 }
 
 std::vector<Candidate> search_the_original_way(const vo::ImageStack& query, const vo::ImageStack& reference,
@@ -109,6 +139,15 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
       "{}: frames more than {:.0f} apart have nothing in common, so motion is told poorly; a higher frame "
       "rate, or --motion none, may do better",
       walk.source, model.separation.back())};
+}
+
+/// Where one walk is in metres and the other is not (steps were seen in one of them only), both are taken to
+/// have been walked at one mean speed; `relative_scale` mends what is left.
+void to_mean_speed(const Traverse& reference, double duration_s, std::vector<double>& displacement) {
+  const double there = reference.keyframes.back().displacement / reference.duration_s;
+  const double here = std::accumulate(displacement.begin(), displacement.end(), 0.0) / duration_s;
+  if (!(there > 0 && here > 0)) return;
+  for (double& step : displacement) step *= there / here;
 }
 
 Place place_of(const Traverse& traverse, std::size_t keyframe) {
@@ -142,6 +181,9 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
                     "no --spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
+  sampled.trajectory = std::move(motion.trajectory);
+  if (reference != nullptr && motion.metric != route.sampling.metric)
+    to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
   if (motion.visual) {
     sampled.motion_model = std::move(motion.visual->model);
     sampled.warnings = motion_warnings(walk, sampled.motion_model);
@@ -174,6 +216,7 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
   traverse.frame_width_px = walk.frame_width_px;
   traverse.frame_height_px = walk.frame_height_px;
   if (survey) traverse.pose_source = survey->source;
+  if (survey) traverse.surveyed = survey->surveyed;
   traverse.motion_model = sampled.motion_model;
   traverse.thumbnails = sampled.thumbnails;
   double travelled = 0;
@@ -229,6 +272,38 @@ Localisation localise(const Route& route, const vo::Walk& walk, const SampledWal
     SequenceSearchOptions search = options.search;
     search.length = result.sequence_length;
     result.lines = static_cast<int>(search_lines(search).size());
+  }
+  return result;
+}
+
+RouteFixes pose_fixes(const Route& route, const std::vector<Match>& matches) {
+  const auto index_of = [&](const Match& match) {
+    return static_cast<std::size_t>(
+        std::ranges::find(route.traverses, match.place->traverse, &Traverse::name) - route.traverses.begin());
+  };
+  const auto says_where = [](const Match& match) {
+    return match.accepted && match.place && match.place->pose;
+  };
+  std::vector<std::size_t> count(route.traverses.size(), 0);
+  for (const Match& match : matches)
+    if (says_where(match)) ++count[index_of(match)];
+
+  // Of surveyed traverses, and then of all, the one with most.
+  RouteFixes result;
+  for (const bool surveyed : {true, false}) {
+    for (std::size_t i = 0; i < count.size(); ++i) {
+      if (count[i] == 0 || route.traverses[i].surveyed != surveyed) continue;
+      if (!result.traverse || count[i] > count[*result.traverse]) result.traverse = i;
+    }
+    if (result.traverse) break;
+  }
+  if (!result.traverse) return result;
+  const bool surveyed = route.traverses[*result.traverse].surveyed;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!says_where(matches[i])) continue;
+    const std::size_t on = index_of(matches[i]);
+    if (surveyed ? route.traverses[on].surveyed : on == *result.traverse)
+      result.fixes.push_back({.node = i, .pose = *matches[i].place->pose, .score = matches[i].score});
   }
   return result;
 }

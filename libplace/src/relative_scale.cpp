@@ -1,5 +1,6 @@
 #include "place/relative_scale.hpp"
 
+#include "place/candidates.hpp"
 #include "place/contrast_enhancement.hpp"
 #include "place/cost_matrix.hpp"
 #include "place/sequence_search.hpp"
@@ -30,6 +31,14 @@ double relative_scale(const vo::ImageStack& query, const vo::ImageStack& referen
   }
   if (std::min(query.size(), reference.size()) < 2 * static_cast<std::size_t>(options.length)) return 1;
 
+  if (reference.size() > options.largest_reference) {
+    const auto likely = candidates(query, reference);
+    if (likely.size() < reference.size()) {
+      RelativeScaleOptions of_likely = options;
+      of_likely.largest_reference = likely.size();
+      return relative_scale(query, vo::select(reference, likely), of_likely);
+    }
+  }
   CostMatrix enhanced = cost_matrix(query, reference);
   enhance_contrast(enhanced, {.method = Enhancement::kStandardise});
   const double step = 2 * std::log(options.largest) / (options.steps - 1);

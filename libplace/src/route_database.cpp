@@ -30,11 +30,13 @@ CREATE TABLE route(
   patch_px INTEGER NOT NULL, patch_shape TEXT NOT NULL, patch_min_deviation REAL NOT NULL,
   patch_min_contrast REAL NOT NULL,
   motion TEXT NOT NULL, every INTEGER NOT NULL, sampling_n REAL NOT NULL, sampling_unit REAL NOT NULL,
-  traverses INTEGER NOT NULL);
+  traverses INTEGER NOT NULL, metric INTEGER NOT NULL);
 CREATE TABLE traverse(
   id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, source TEXT NOT NULL,
   frames INTEGER NOT NULL, duration_s REAL NOT NULL, frame_width_px INTEGER NOT NULL, frame_height_px INTEGER NOT NULL,
-  pose_source TEXT NOT NULL, keyframes INTEGER NOT NULL, motion_knots INTEGER NOT NULL);
+  pose_source TEXT NOT NULL, keyframes INTEGER NOT NULL, motion_knots INTEGER NOT NULL,
+  surveyed INTEGER NOT NULL);
+CREATE TABLE geographic_origin(latitude_deg REAL NOT NULL, longitude_deg REAL NOT NULL);
 CREATE TABLE setting(
   traverse INTEGER NOT NULL REFERENCES traverse, name TEXT NOT NULL, value TEXT NOT NULL,
   PRIMARY KEY(traverse, name)) WITHOUT ROWID;
@@ -95,7 +97,7 @@ void check(const Route& route) {
 }
 
 void write_traverse(const Database& database, std::int64_t id, const Traverse& traverse) {
-  database.prepare("INSERT INTO traverse VALUES(?,?,?,?,?,?,?,?,?,?)")
+  database.prepare("INSERT INTO traverse VALUES(?,?,?,?,?,?,?,?,?,?,?)")
       .bind(id)
       .bind(traverse.name)
       .bind(traverse.source)
@@ -106,6 +108,7 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
       .bind(traverse.pose_source)
       .bind(static_cast<std::int64_t>(traverse.keyframes.size()))
       .bind(static_cast<std::int64_t>(traverse.motion_model.error.size()))
+      .bind(std::int64_t{traverse.surveyed ? 1 : 0})
       .execute();
 
   Statement setting = database.prepare("INSERT INTO setting VALUES(?,?,?)");
@@ -221,6 +224,21 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   return traverse;
 }
 
+/// What files of schema 1 have not.
+void read_additions_of_schema_2(const Database& database, Route& route) {
+  Statement metric = database.prepare("SELECT metric FROM route");
+  if (metric.step()) route.sampling.metric = metric.integer() != 0;
+  Statement surveyed = database.prepare("SELECT surveyed FROM traverse ORDER BY id");
+  for (Traverse& traverse : route.traverses) {
+    if (surveyed.step()) traverse.surveyed = surveyed.integer() != 0;
+  }
+  Statement origin = database.prepare("SELECT latitude_deg, longitude_deg FROM geographic_origin");
+  if (!origin.step()) return;
+  route.origin.emplace();
+  route.origin->latitude_deg = origin.real();
+  route.origin->longitude_deg = origin.real();
+}
+
 }  // namespace
 
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options) {
@@ -236,8 +254,9 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   }
   Statement version = database.prepare("PRAGMA user_version");
   version.step();
-  if (const std::int64_t found = version.integer(); found > kRouteSchemaVersion) {
-    throw vo::Error(shown, fmt::format("has schema version {}, written by a newer retrace", found),
+  const std::int64_t schema = version.integer();
+  if (schema > kRouteSchemaVersion) {
+    throw vo::Error(shown, fmt::format("has schema version {}, written by a newer retrace", schema),
                     fmt::format("schema version {} or older; update retrace", kRouteSchemaVersion));
   }
 
@@ -264,6 +283,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   const std::optional<vo::MotionSource> motion = motion_source(row.text());
   if (!motion) damaged(shown, "its motion source is unknown");
   route.sampling.motion = *motion;
+  route.sampling.metric = *motion == vo::MotionSource::kSteps;  // of schema 1 the only metric source
   route.sampling.every = static_cast<int>(row.integer());
   route.sampling.n = row.real();
   route.sampling.unit = row.real();
@@ -273,6 +293,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   for (std::int64_t id = 1; id <= traverses; ++id) {
     route.traverses.push_back(read_traverse(database, shown, id, route, options));
   }
+  if (schema >= 2) read_additions_of_schema_2(database, route);
   return route;
 }
 
@@ -290,7 +311,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
                              kRouteSchemaVersion));
     database.run("BEGIN");
     database.run(kSchema);
-    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
+    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)")
         .bind(std::string_view(kVersion))
         .bind(std::int64_t{route.thumbnail.width})
         .bind(std::int64_t{route.thumbnail.height})
@@ -303,7 +324,14 @@ void write_route(const std::filesystem::path& path, const Route& route) {
         .bind(route.sampling.n)
         .bind(route.sampling.unit)
         .bind(static_cast<std::int64_t>(route.traverses.size()))
+        .bind(std::int64_t{route.sampling.metric ? 1 : 0})
         .execute();
+    if (route.origin) {
+      database.prepare("INSERT INTO geographic_origin VALUES(?,?)")
+          .bind(route.origin->latitude_deg)
+          .bind(route.origin->longitude_deg)
+          .execute();
+    }
     for (std::size_t i = 0; i < route.traverses.size(); ++i) {
       write_traverse(database, static_cast<std::int64_t>(i) + 1, route.traverses[i]);
     }

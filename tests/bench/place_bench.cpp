@@ -1,8 +1,10 @@
 #include "kernels/absolute_difference.hpp"
 #include "sad_limit.hpp"
 
-#include <faiss/utils/extra_distances.h>
+#include <algorithm>
 #include <cstring>
+#include <faiss/utils/extra_distances.h>
+#include <filesystem>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -10,6 +12,7 @@
 
 #include <place/contrast_enhancement.hpp>
 #include <place/cost_matrix.hpp>
+#include <place/route_database.hpp>
 #include <place/sequence_search.hpp>
 #include <place/streamed_search.hpp>
 #include <vo/base/parallel.hpp>
@@ -151,9 +154,38 @@ void sequence_search(benchmark::State& state) {
   state.counters["lines"] = static_cast<double>(place::search_lines(options).size());
 }
 BENCHMARK(sequence_search)
-    ->ArgsProduct({{3576}, {10, 20, 50}, {1, 2}})
+    ->ArgsProduct({{1800, 3576}, {10, 20, 50}, {1}})
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
+
+/// The peer: the straightforward search, a line's terms added up for all references at a time, which
+/// compilers vectorise. Without the ends, the scores and the matches, which take it more. Arguments: size,
+/// sequence length.
+void sequence_search_plain(benchmark::State& state) {
+  const place::CostMatrix costs = random_costs(static_cast<std::size_t>(state.range(0)));
+  const int length = static_cast<int>(state.range(1)), half = length / 2;
+  const auto lines = place::search_lines({.length = length});
+  const auto size = static_cast<int>(costs.references);
+  std::vector<float> sums(costs.references), best(costs.references);
+  for (auto _ : state) {
+    for (int q = half; q + length - half <= size; ++q) {
+      std::ranges::fill(best, 1e9F);
+      for (const auto& line : lines) {
+        std::ranges::fill(sums, 0.0F);
+        for (int k = 0; k < length; ++k) {
+          const int offset = line.offsets[static_cast<std::size_t>(k)];
+          const float* row = costs.row(static_cast<std::size_t>(q + k - half)).data();
+          const int end = std::min(size, size - offset);
+          for (int r = std::max(0, -offset); r < end; ++r)
+            sums[static_cast<std::size_t>(r)] += row[r + offset];
+        }
+        for (std::size_t r = 0; r < sums.size(); ++r) best[r] = sums[r] < best[r] ? sums[r] : best[r];
+      }
+      benchmark::DoNotOptimize(best.data());
+    }
+  }
+}
+BENCHMARK(sequence_search_plain)->ArgsProduct({{1800}, {10, 20, 50}})->Unit(benchmark::kMillisecond);
 
 void enhance(benchmark::State& state, place::Enhancement method) {
   vo::set_thread_count(1);
@@ -185,5 +217,23 @@ BENCHMARK(search_streamed)
     ->Args({2000, 100000, 10})
     ->Args({2000, 1000000, 10})
     ->Unit(benchmark::kMillisecond);
+
+// ---- The database ----
+
+/// Opening a route, pictures left in the file. Argument: keyframes.
+void open_route(benchmark::State& state) {
+  const auto keyframes = static_cast<std::size_t>(state.range(0));
+  place::Traverse traverse;
+  traverse.thumbnails = random_descriptors(keyframes, 1);
+  traverse.keyframes.resize(keyframes);
+  place::Route route;
+  route.traverses.push_back(std::move(traverse));
+  const auto path = std::filesystem::temp_directory_path() / "retrace-place-bench.db";
+  place::write_route(path, route);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(place::read_route(path, {.previews = false}).traverses.data());
+  std::filesystem::remove(path);
+}
+BENCHMARK(open_route)->Arg(100000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -10,7 +10,8 @@
 #include <immintrin.h>
 #endif
 
-/// The limit of the cost matrix: sums of absolute differences of bytes that never leave the first-level cache.
+/// The limit of the cost matrix: sums of absolute differences of bytes that never leave the first-level
+/// cache.
 namespace bench {
 
 inline constexpr std::size_t kLimitBytes = 8192;

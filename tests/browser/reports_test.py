@@ -22,6 +22,7 @@ try:
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
     print("skipped: python3-selenium is not installed")
     sys.exit(SKIPPED)
@@ -159,7 +160,9 @@ class ReportsTest(unittest.TestCase):
         background = self.script("return getComputedStyle(document.body).backgroundColor")
         self.assertEqual(background, "rgb(22, 23, 27)")
         for canvas, before in zip(canvases, light):
-            self.assertNotEqual(self.script(DIGEST, canvas), before, canvas.get_attribute("aria-label"))
+            # The page is told of the change in its own time.
+            WebDriverWait(self.driver, 10).until(lambda _, c=canvas, b=before: self.script(DIGEST, c) != b,
+                                                 canvas.get_attribute("aria-label"))
         self.screenshot("dark")
         self.colours("light")
 
@@ -248,6 +251,24 @@ class ReportsTest(unittest.TestCase):
         check(*evaluate, "--map-image", image)
         self.open(walk / "report.html", charts=3)
         self.assertGreater(self.script(INKED, self.all("canvas")[0]), plain + 0.05)
+
+    def test_sweep(self):
+        check("sweep", self.walks.rain, "--reference", self.walks.day, *self.walks.truth, "--tolerance-m", 2, "-o",
+              self.folder / "sweep", "--sequence-length", "5,10", "--search-range-rad", "0,0.2,0.4", "--vary",
+              "enhance=local,standardise")
+        # Two motion sources, each against range and against length; and the further setting.
+        self.open(self.folder / "sweep/report.html", charts=5)
+        self.assertEqual(len(self.all("table.heat")), 2)
+        self.assertGreaterEqual(len(self.all("td.best")), 2)
+        shades = {cell.value_of_css_property("background-color") for cell in self.all("table.heat td")}
+        self.assertGreater(len(shades), 2)
+
+    def test_compare(self):
+        runs = [self.walks.evaluated(self.walks.localised(name, *options))
+                for name, options in (("short", ["--sequence-length", 3]), ("long", ["--sequence-length", 20]))]
+        check("compare", *runs, "-o", self.folder / "comparison", "--segment-s", 2)
+        self.open(self.folder / "comparison/report.html", charts=2)
+        self.assertEqual(len(self.all("dl.headline > div")), 2)
 
     def test_hovering_the_curve_tells_the_threshold(self):
         run = self.walks.evaluated(self.walks.localised("hovered"))

@@ -104,7 +104,7 @@ class CliTest(unittest.TestCase):
             close += abs(at - self.walks.query_at[int(row["query_frame"])]) <= 2 * spacing
         self.assertGreaterEqual(close, 0.95 * len(accepted))
         self.assertGreater(sum(row["accepted"] == "1" for row in found), 0.8 * len(found))
-        for name in ("trajectory.tum", "summary.json", "report.html", "config.toml", "cost_matrix.png"):
+        for name in ("trajectory.tum", "summary.json", "report.html", "report_data.json", "config.toml", "cost_matrix.png"):
             self.assertGreater((self.walks.run / name).stat().st_size, 0, name)
         poses = [line.split() for line in (self.walks.run / "trajectory.tum").read_text().splitlines() if line[0] != "#"]
         self.assertEqual(len(poses), sum(row["accepted"] == "1" for row in found))
@@ -166,6 +166,54 @@ class CliTest(unittest.TestCase):
         check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "calibrated", "--walk-length-m", "15", "--threads", "1")
         self.assertAlmostEqual(read_json(self.folder / "calibrated" / "summary.json")["step_length_m"], 15 / len(steps), places=6)
         self.assertEqual([row["time_s"] for row in rows(self.folder / "calibrated" / "steps.csv")], [row["time_s"] for row in steps])
+
+    def test_corrects_drift_on_a_route_with_a_gps_track(self):
+        check("simulate", "--scene", "corridor", "--length-m", "25", "--seed", "2", "-o", self.folder / "walk")
+        video_file, truth = self.folder / "walk" / "walk.mp4", rows(self.folder / "walk" / "truth.csv")
+        # Degrees at 46 N as long as tables have them: 111147 m and 77466 m.
+        track = self.folder / "track.csv"
+        track.write_text("time_s,lat_deg,lon_deg\n" + "".join(
+            f"{row['time_s']},{46 + float(row['y_m']) / 111147:.9f},{7 + float(row['x_m']) / 77466:.9f}\n" for row in truth))
+        route, out = self.folder / "route.db", self.folder / "run"
+        check("build", video_file, "-o", route, "--track", track)
+        localise = ("localise", video_file, "--route", route, "--step-length", "0.75", "--sequence-length", "6")
+        check(*localise, "-o", out)
+        corrected = rows(out / "trajectory.csv")
+        self.assertEqual(list(corrected[0])[:11], ["query_frame", "time_s", "x_m", "y_m", "heading_deg", "cov_xx_m2", "cov_xy_m2",
+                                                   "cov_yy_m2", "heading_sd_deg", "distance_m", "lateral_m"])
+        matches = rows(out / "matches.csv")
+        self.assertEqual([row["query_frame"] for row in corrected], [row["query_frame"] for row in matches])
+        first = truth[0]
+        for row in corrected:
+            true = truth[int(row["query_frame"])]
+            # The walk is found on itself, so that half a keyframe's way is left, and the track's headings at its ends.
+            self.assertAlmostEqual(float(row["x_m"]), float(true["x_m"]) - float(first["x_m"]), delta=0.6)
+            self.assertAlmostEqual(float(row["y_m"]), float(true["y_m"]) - float(first["y_m"]), delta=0.6)
+        for name in ("trajectory.tum", "trajectory_odometry.tum"):
+            poses = [line for line in (out / name).read_text().splitlines() if line[0] != "#"]
+            self.assertEqual(len(poses), len(corrected))
+        line = read_json(out / "trajectory.geojson")["geometry"]["coordinates"]
+        self.assertEqual(len(line), len(corrected))
+        self.assertAlmostEqual(line[-1][1], 46 + float(truth[-1]["y_m"]) / 111147, delta=1e-5)
+        self.assertEqual((out / "trajectory.gpx").read_text().count("<trkpt"), len(corrected))
+        self.assertTrue(read_json(out / "summary.json")["drift"]["corrected"])
+
+        # From the files again, the same; from other odometry, as good; without, the matches' poses.
+        before = (out / "trajectory.csv").read_bytes()
+        check("correct", out, "--route", route)
+        for a, b in zip(corrected, rows(out / "trajectory.csv")):
+            self.assertAlmostEqual(float(a["x_m"]), float(b["x_m"]), delta=0.01)  # six decimals of odometry
+        check("odometry", video_file, "-o", self.folder / "odometry", "--close-loops")
+        self.assertEqual(read_json(self.folder / "odometry" / "summary.json")["loops"]["keyframes"], 0)
+        check("correct", out, "--route", route, "--odometry", self.folder / "odometry" / "trajectory.tum")
+        self.assertNotEqual(before, (out / "trajectory.csv").read_bytes())
+        self.assertAlmostEqual(float(rows(out / "trajectory.csv")[-1]["x_m"]), float(corrected[-1]["x_m"]), delta=0.3)
+        check(*localise, "-o", out, "--force", "--correct-drift", "false")
+        self.assertFalse((out / "trajectory.csv").exists())
+        self.assertFalse(read_json(out / "summary.json")["drift"]["corrected"])
+        (self.folder / "short.tum").write_text("0 0 0 0 0 0 0 1\n")
+        self.refused("correct", out, "--route", route, "--odometry", self.folder / "short.tum", says="short.tum: has no pose at")
+        self.refused("correct", out, "--route", self.walks.route, says="is not on the route")
 
     def test_refuses_odometry_it_cannot_do(self):
         walk = ("odometry", self.walks.query, "-o", self.folder / "out")
@@ -465,10 +513,108 @@ class CliTest(unittest.TestCase):
             if traverses == 1:
                 self.assertEqual(before, route.read_bytes())
 
+    # ---- sweeps and comparisons ----
+
+    def sweep(self, folder, *options):
+        return check("sweep", self.walks.query, "--reference", self.walks.reference, "--query-truth", self.walks.query_truth,
+                     "--reference-truth", self.walks.reference_truth, "--tolerance-m", 0.1, "-o", folder,
+                     "--sequence-length", "5,10", "--search-range-rad", "0.1,0.3", *options)
+
+    def test_a_sweep_s_cells_are_what_localise_and_evaluate_give(self):
+        said = json.loads(self.sweep(self.folder / "sweep", "--motion", "sad,none", "--vary", "enhance=local,standardise", "--json"))
+        cells = rows(self.folder / "sweep/sweep.csv")
+        self.assertEqual(list(cells[0])[:4], ["motion", "sequence-length", "search-range-rad", "enhance"])
+        self.assertEqual(len(cells), 16)
+        best = max(cells, key=lambda cell: float(cell["max_f1"]))
+        self.assertAlmostEqual(said["best"]["max_f1"], float(best["max_f1"]), places=6)
+        for name in ("report.html", "heat_map.png"):
+            self.assertGreater((self.folder / "sweep" / name).stat().st_size, 0, name)
+
+        # The fixture's route was built with the defaults, which are the sweep's too.
+        settings = {"sequence-length": "5", "search-range-rad": "0.3", "enhance": "local"}
+        check("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / "run",
+              *[f"--{name}={value}" for name, value in settings.items()])
+        check("evaluate", self.folder / "run", "--query-truth", self.walks.query_truth, "--reference-truth",
+              self.walks.reference_truth, "--tolerance-m", 0.1)
+        metrics = read_json(self.folder / "run/metrics.json")
+        cell = next(c for c in cells if c["motion"] == "sad" and all(c[name] == value for name, value in settings.items()))
+        for name in ("max_f1", "precision", "recall", "auc_pr", "recall_at_1"):
+            self.assertAlmostEqual(float(cell[name]), metrics[name], places=8)  # nine digits are written
+
+        # Without motion, about as many keyframes as with it.
+        counts = {c["motion"]: int(c["query_keyframes"]) + int(c["reference_keyframes"]) for c in cells}
+        self.assertLess(abs(counts["none"] - counts["sad"]), 0.2 * counts["sad"])
+
+    def test_a_sweep_goes_on_where_it_was_stopped(self):
+        whole = self.folder / "whole"
+        self.sweep(whole, "--threads", 1)
+        expected = (whole / "sweep.csv").read_bytes()
+        lines = expected.decode().splitlines(keepends=True)
+
+        # What is there is kept, not worked out again; the rest is added.
+        fields = lines[3].split(",")
+        fields[lines[0].split(",").index("max_f1")] = "0.125"
+        (whole / "sweep.csv").write_text("".join([lines[0], ",".join(fields), *lines[5:]]))
+        self.sweep(whole)
+        self.assertEqual((whole / "sweep.csv").read_text(), "".join([*lines[:3], ",".join(fields), *lines[4:]]))
+        self.sweep(whole, "--force", "--threads", 2)
+        self.assertEqual((whole / "sweep.csv").read_bytes(), expected)
+
+        killed = self.folder / "killed"
+        command = [RETRACE, "sweep", self.walks.query, "--reference", self.walks.reference, "--query-truth", self.walks.query_truth,
+                   "--reference-truth", self.walks.reference_truth, "--tolerance-m", "0.1", "-o", killed,
+                   "--sequence-length", "5,10", "--search-range-rad", "0.1,0.3"]
+        for delay_s in (0.2, 0.6, 1.2):
+            process = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(delay_s)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        self.sweep(killed)
+        self.assertEqual((killed / "sweep.csv").read_bytes(), expected)
+
+    def test_refuses_sweeps_it_cannot_do(self):
+        sweep = ["sweep", self.walks.query, "--reference", self.walks.reference, "--query-truth", self.walks.query_truth,
+                 "--reference-truth", self.walks.reference_truth, "--tolerance-m", 0.1, "-o", self.folder / "sweep"]
+        for options, says in ((["--vary", "slope=1,2"], "slopes?"), (["--vary", "thumbnail-width=32,64"], "cannot vary"),
+                              (["--vary", "enhance"], "NAME=a,b,c"), (["--sequence-length", "0"], "not in range"),
+                              (["--motion", "fast"], "fast"), (["--vary", "motion=sad"], "twice")):
+            self.refused(*sweep, *options, says=says)
+        self.refused(*sweep[:-4], "-o", self.folder / "sweep", says="tolerance", code=2)
+        self.sweep(self.folder / "sweep", "--motion", "sad")
+        before = (self.folder / "sweep/sweep.csv").read_bytes()
+        self.refused(*sweep, "--motion", "sad", "--sampling-n", "7", says="holds another sweep")
+        self.assertEqual((self.folder / "sweep/sweep.csv").read_bytes(), before)
+
+    def evaluated(self, name, *options, tolerance_m=0.05):
+        check("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / name, *options)
+        check("evaluate", self.folder / name, "--query-truth", self.walks.query_truth, "--reference-truth",
+              self.walks.reference_truth, "--tolerance-m", tolerance_m)
+        return self.folder / name
+
+    def test_compares_runs(self):
+        one, two = self.evaluated("one", "--sequence-length", 2), self.evaluated("two", "--enhance", "local")
+        compare = ["compare", one, two, "--segment-s", 2, "--resamples", 500, "--json"]
+        said = json.loads(check(*compare, "-o", self.folder / "a"))
+        self.assertEqual(said, read_json(self.folder / "a/comparison.json"))
+        for run, folder in zip(said["runs"], (one, two)):
+            self.assertEqual(run["name"], folder.name)
+            self.assertAlmostEqual(run["max_f1"], read_json(folder / "metrics.json")["max_f1"], places=9)
+            low, high = run["max_f1_interval"]
+            self.assertTrue(0 <= low < high <= 1)
+        self.assertAlmostEqual(said["differences"][0]["max_f1_difference"], said["runs"][1]["max_f1"] - said["runs"][0]["max_f1"])
+        self.assertEqual(said, json.loads(check(*compare, "--threads", 1, "-o", self.folder / "b")))
+        self.assertNotEqual(said, json.loads(check(*compare, "--seed", 2, "-o", self.folder / "c")))
+
+        other = self.evaluated("other", tolerance_m=0.1)
+        self.refused("compare", one, other, "-o", self.folder / "d", says="tolerance of 0.1 metres", leaves=["d"])
+        self.refused("compare", one, self.walks.run, "-o", self.folder / "e", says="retrace evaluate", leaves=["e"])
+        self.refused("compare", one, two, "--names", "a", "-o", self.folder / "f", says="one for each run")
+        self.refused("compare", one, "-o", self.folder / "g", says="2", code=2)
+
     # ---- help ----
 
     def test_help_shows_units_defaults_and_examples(self):
-        for command in ("build", "localise", "evaluate", "odometry", "evaluate-odometry", "inspect", "config"):
+        for command in ("build", "localise", "correct", "evaluate", "odometry", "evaluate-odometry", "inspect", "config"):
             text = check(command, "--help")
             self.assertIn("Example", text)
             self.assertIn(f"retrace {command}", text)

@@ -4,8 +4,12 @@
 Reads the folder that RETRACE_DATA names, or ../shared/data beside the source tree; without it, says so and is skipped.
 """
 
+import csv
+import json
+import math
 import os
 import pathlib
+import random
 import shutil
 import sys
 import tempfile
@@ -89,6 +93,72 @@ class AccuracyTest(unittest.TestCase):
     def test_corridor_with_stops_and_passers_by(self):
         metrics = self.metrics(SIM / "corridor_a.mp4", SIM / "corridor_b.mp4", sim_truth("corridor_a", "corridor_b"))
         self.assertGreaterEqual(metrics["max_f1"], 0.98)
+
+    # ---- drift ----
+
+    def corrected(self, reference, query):
+        """The metrics of a walk followed with steps 8 % too long and a field of view 5 % too wide, and of the same
+        with 30 % of its accepted matches replaced by random ones."""
+        truth = rows(SIM / f"{query}.csv")
+        step_length = 1.08 * float(truth[-1]["distance_m"]) / float(truth[-1]["steps"])
+        route = self.route(SIM / f"{reference}.mp4", "--truth", SIM / f"{reference}.csv")
+        run = self.folder / f"drift_{query}"
+        check("localise", SIM / f"{query}.mp4", "--route", route, "-o", run, "--step-length", step_length, "--fov-deg", 64.4 * 1.05)
+
+        def evaluate(what):
+            check("evaluate", run, *sim_truth(reference, query))
+            m = read_json(run / "metrics.json")
+            print(f"\n  {query}, {what}: RMSE {m['ape_rmse_m']:.2f} m, end {m['ape_end_m']:.2f} m; odometry alone "
+                  f"{m['ape_odometry_rmse_m']:.2f} m, {m['ape_odometry_end_m']:.2f} m; within the 90 % ellipse "
+                  f"{100 * m['ape_inside_90']:.0f} %", end=" ", flush=True)
+            return m
+
+        as_found = evaluate("as found")
+        matches = rows(run / "matches.csv")
+        frames = [k["frame"] for k in json.loads(check("inspect", route, "--json"))["traverses"][0]["keyframe"]]
+        chance = random.Random(1)
+        for row in matches:
+            if row["accepted"] == "1" and chance.random() < 0.3:
+                row["reference_frame"] = chance.choice(frames)
+        with open(run / "matches.csv", "w", newline="") as file:
+            writer = csv.DictWriter(file, matches[0].keys())
+            writer.writeheader()
+            writer.writerows(matches)
+        check("correct", run, "--route", route)
+        return as_found, evaluate("30 % of the matches random")
+
+    def test_drift_is_corrected(self):
+        for reference, query in (("corridor_a", "corridor_b"), ("street_day", "street_night")):
+            with self.subTest(query=query):
+                as_found, with_random = self.corrected(reference, query)
+                self.assertGreater(as_found["ape_odometry_end_m"], 8)
+                self.assertLessEqual(as_found["ape_rmse_m"], 1)
+                self.assertLessEqual(as_found["ape_end_m"], 1.5)
+                self.assertLessEqual(with_random["ape_rmse_m"], 1.5)
+                # Not above 0.95 as well: how far aside a walker keeps is one draw a walk, and here a small one.
+                self.assertGreaterEqual(as_found["ape_inside_90"], 0.85)
+
+    def test_two_walks_of_drifting_odometry_agree(self):
+        """The reference's poses are its own odometry: the same place must have the same coordinates."""
+        route = self.route(SIM / "corridor_a.mp4", "--motion", "steps", "--step-length", 0.75, "--fov-deg", 67)
+        run = self.folder / "consistency"
+        check("localise", SIM / "corridor_b.mp4", "--route", route, "-o", run, "--fov-deg", 62)
+        reference = [k for k in json.loads(check("inspect", route, "--json"))["traverses"][0]["keyframe"]]
+        reference_m = [float(row["distance_m"]) for row in rows(SIM / "corridor_a.csv")]
+        query_m = [float(row["distance_m"]) for row in rows(SIM / "corridor_b.csv")]
+        squares = []
+        for row in rows(run / "trajectory.csv"):
+            at_m = query_m[int(row["query_frame"])]
+            after = next((i for i, k in enumerate(reference) if reference_m[k["frame"]] >= at_m), 0)
+            if after == 0:
+                continue
+            a, b = reference[after - 1], reference[after]
+            t = (at_m - reference_m[a["frame"]]) / (reference_m[b["frame"]] - reference_m[a["frame"]])
+            squares.append(sum((float(row[c]) - (a[c] + t * (b[c] - a[c]))) ** 2 for c in ("x_m", "y_m")))
+        consistency_m = math.sqrt(sum(squares) / len(squares))
+        print(f"\n  the same place by two walks' odometry: {consistency_m:.2f} m apart (rms of {len(squares)})", end=" ", flush=True)
+        self.assertGreater(len(squares), 100)
+        self.assertLessEqual(consistency_m, 1)
 
     # ---- pedestrian odometry ----
 

@@ -24,20 +24,24 @@ ordered_json rounded(const std::vector<double>& values) {
   return json;
 }
 
+Series styled(Series series, std::size_t index) {
+  static const std::vector<std::string> kColours{"blue", "orange", "green", "purple", "ochre", "grey"};
+  static const std::vector<std::string> kMarks{"circle", "triangle", "square", "diamond", "cross", "star"};
+  static const std::vector<std::vector<int>> kDashes{{}, {8, 3}, {2, 3}, {10, 3, 2, 3}};
+  series.colour = kColours[index % kColours.size()];
+  series.mark = kMarks[index % kMarks.size()];
+  series.dash = kDashes[index % kDashes.size()];
+  return series;
+}
+
 namespace {
 
 ordered_json to_json(const Series& series) {
-  ordered_json json{{"name", series.name},
-                    {"x", rounded(series.x)},
-                    {"y", rounded(series.y)},
-                    {"colour", series.colour},
-                    {"line", series.line},
-                    {"mark", series.mark},
-                    {"hollow", series.hollow},
-                    {"width", series.width_px},
-                    {"dash", series.dash},
-                    {"size", series.size_px},
-                    {"label_at_end", series.label_at_end}};
+  ordered_json json{
+      {"name", series.name},     {"x", rounded(series.x)},      {"y", rounded(series.y)},
+      {"colour", series.colour}, {"line", series.line},         {"mark", series.mark},
+      {"hollow", series.hollow}, {"width", series.width_px},    {"dash", series.dash},
+      {"size", series.size_px},  {"bar_ends", series.bar_ends}, {"label_at_end", series.label_at_end}};
   if (!series.notes.empty()) json["notes"] = series.notes;
   return json;
 }
@@ -59,6 +63,7 @@ ordered_json to_json(const Chart& chart) {
     for (const auto& [from, to] : band.spans) spans.push_back({rounded(from), rounded(to)});
     json["bands"].push_back({{"name", band.name}, {"colour", band.colour}, {"spans", std::move(spans)}});
   }
+  if (!chart.y_names.empty()) json["y_names"] = chart.y_names;
   if (chart.x_range) json["x_range"] = *chart.x_range;
   if (chart.y_range) json["y_range"] = *chart.y_range;
   if (const auto& b = chart.backdrop) {

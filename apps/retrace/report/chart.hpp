@@ -26,9 +26,14 @@ struct Series {
   std::vector<int> dash;  ///< pixels drawn and left out; empty: solid
   double width_px = 1.8;
   double size_px = 3.5;            ///< half of a mark
+  bool bar_ends = false;           ///< the first and last point are bars across the line, as of an interval
   bool label_at_end = false;       ///< the name stands at the last point, not in the legend
   std::vector<std::string> notes;  ///< told of each point beside its values; empty: nothing
 };
+
+/// Gives a series the colour, mark and dashes of its place among others of the same kind, told apart without
+/// colour too.
+Series styled(Series series, std::size_t index);
 
 /// Stretches of x that are shaded.
 struct Band {
@@ -50,6 +55,7 @@ struct Chart {
   std::vector<Series> series;
   std::vector<Band> bands;
   std::optional<std::array<double, 2>> x_range, y_range;  ///< as the data has it if not given
+  std::vector<std::string> y_names;                       ///< of y = 1, 2, ..., instead of numbers
   std::optional<Backdrop> backdrop;
   bool equal = false;     ///< metres look alike along both axes
   bool zoomable = false;  ///< along x, or along both where they are equal

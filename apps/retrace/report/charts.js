@@ -76,6 +76,11 @@ const endLabels = {
   }
 };
 
+/** One value for the first and last point, another for those between. */
+function atEnds(end, between, series) {
+  return series.x.map((x, i) => (i === 0 || i === series.x.length - 1 ? end : between));
+}
+
 function dataset(series) {
   const colour = themeColour(series.colour);
   const points = series.x.map((x, i) => ({x, y: series.y[i] === null ? NaN : series.y[i]}));
@@ -89,8 +94,9 @@ function dataset(series) {
     borderWidth: series.line === false ? 1.5 : series.width || 1.8,
     borderDash: series.dash || [],
     stepped: series.stepped || false,
-    pointStyle: MARKS[series.mark] || 'circle',
-    pointRadius: size,
+    pointStyle: series.bar_ends ? atEnds('line', MARKS[series.mark], series) : MARKS[series.mark] || 'circle',
+    pointRotation: series.bar_ends ? atEnds(90, 0, series) : 0,
+    pointRadius: series.bar_ends ? atEnds(8, size, series) : size,
     pointHoverRadius: Math.max(size, 3.5) + 1.5,
     pointHitRadius: 6,
     pointBorderColor: colour,
@@ -194,6 +200,12 @@ function extent(spec, name) {
   return [low - margin, high + margin];
 }
 
+/** Names instead of numbers along y. */
+function nameLines(axis, names) {
+  axis.ticks.stepSize = 1;
+  axis.ticks.callback = value => names[value - 1] || '';
+}
+
 /** Draws `figure`; returns what the page does with it: restyle() and, where it can be zoomed, zoom(). */
 function drawChart(figure, spec) {
   const canvas = figure.querySelector('canvas');
@@ -227,6 +239,7 @@ function drawChart(figure, spec) {
   function build() {
     if (chart) chart.destroy();
     const config = configuration(spec, canvas.getContext('2d'));
+    if (spec.y_names) nameLines(config.options.scales.y, spec.y_names);
     config.options.onResize = () => { if (spec.equal && chart) setTimeout(show, 0); };
     config.plugins.unshift({id: 'report', beforeInit: made => { made.report = {spec, picture}; }});
     chart = new Chart(canvas, config);

@@ -11,13 +11,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-void put_chart(Page& page, const std::optional<Chart>& chart, std::string_view title,
-               std::string_view caption) {
-  if (!chart) return;
-  if (!title.empty()) page.heading(title);
-  page.chart(*chart, caption);
-}
-
 void put_headlines(Page& page, const OdometryView& walk) {
   const ordered_json& summary = walk.summary;
   std::vector<Headline> numbers{{"Steps", std::to_string(walk.steps.time_s.size()),
@@ -49,10 +42,10 @@ void put_headlines(Page& page, const OdometryView& walk) {
 void put_errors(Page& page, const OdometryView& walk) {
   if (walk.truth == nullptr) return;
   page.heading("Error against distance");
-  put_chart(page, position_error_chart(walk), "",
-            "Random segments, at whose start the trajectory is put at the true place and heading [PVO 5.2, "
-            "Fig. 7].");
-  put_chart(page, heading_error_chart(walk), "", "Estimate minus truth.");
+  page.chart("", position_error_chart(walk),
+             "Random segments, at whose start the trajectory is put at the true place and heading [PVO 5.2, "
+             "Fig. 7].");
+  page.chart("", heading_error_chart(walk), "Estimate minus truth.");
   std::vector<std::vector<std::string>> rows;
   for (const vo::OdometryErrors& e : walk.truth->evaluation.errors) {
     if (e.count == 0) continue;
@@ -71,18 +64,18 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
   Page page("Steps and trajectory",
             walk.summary.contains("walk") ? walk.summary["walk"].get<std::string>() : folder.string());
   put_headlines(page, walk);
-  put_chart(page, trajectory_chart(walk), "Trajectory",
-            truth == nullptr
-                ? "Metres from the first frame, which looks along y. The square is the start."
-                : "Metres. The odometry is laid on the truth's first five metres; the square is the start.");
+  page.chart("Trajectory", trajectory_chart(walk),
+             truth == nullptr
+                 ? "Metres from the first frame, which looks along y. The square is the start."
+                 : "Metres. The odometry is laid on the truth's first five metres; the square is the start.");
   put_errors(page, walk);
-  put_chart(
-      page, gait_chart(walk), "Steps",
+  page.chart(
+      "Steps", gait_chart(walk),
       "A peak beyond both thresholds is a step with the left leg (triangle), a valley one with the right "
       "(diamond); outlines are steps filled in. Zoom in to see them [PVO Fig. 3].");
-  put_chart(page, activity_chart(walk), "Activity", "Each shading is what was done in that second.");
-  put_chart(page, heading_chart(walk), "Heading", "");
-  put_chart(page, matches_chart(walk), "Matches", "Points followed over the tracking window.");
+  page.chart("Activity", activity_chart(walk), "Each shading is what was done in that second.");
+  page.chart("Heading", heading_chart(walk), "");
+  page.chart("Matches", matches_chart(walk), "Points followed over the tracking window.");
   put_settings(page, folder / "config.toml");
   return page.html();
 }

@@ -67,7 +67,7 @@ std::string without_comment_marks(std::string_view text) {
 }
 
 bool is_number(std::string_view cell) {
-  return !cell.empty() && cell.find_first_not_of("0123456789.-+e %") == std::string_view::npos;
+  return !cell.empty() && cell.find_first_not_of("0123456789.-+e %[],") == std::string_view::npos;
 }
 
 }  // namespace
@@ -128,14 +128,28 @@ void Page::table(const std::vector<std::string>& header, const std::vector<std::
   body_ += "</tbody>\n</table></div>\n";
 }
 
-void Page::heat_table(const HeatTable& table) {
+std::array<double, 2> value_range(const std::vector<HeatTable>& tables) {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const auto& row : table.values) {
-    for (const double value : row) {
-      low = std::fmin(low, value);  // which pass over NaN
-      high = std::fmax(high, value);
+  for (const HeatTable& table : tables) {
+    for (const auto& row : table.values) {
+      for (const double value : row) {
+        low = std::fmin(low, value);  // which pass over NaN
+        high = std::fmax(high, value);
+      }
     }
   }
+  return low <= high ? std::array{low, high} : std::array{0.0, 0.0};
+}
+
+void Page::heat_tables(const std::vector<HeatTable>& tables) {
+  body_ += "<div class=\"heats\">\n";
+  for (const HeatTable& table : tables) heat_table(table, value_range(tables));
+  body_ += "</div>\n";
+}
+
+void Page::heat_table(const HeatTable& table, std::array<double, 2> range) {
+  const auto [low, high] = range;
+  const double best = value_range({table})[1];
   body_ += fmt::format(
       "<div class=\"scroll\"><table class=\"heat\"><caption>{}</caption>\n<thead><tr><th scope=\"col\">{} \\ "
       "{}</th>",
@@ -153,7 +167,7 @@ void Page::heat_table(const HeatTable& table) {
       const double shade = high > low ? (value - low) / (high - low) : 1;
       body_ +=
           fmt::format("<td class=\"{}{}\" style=\"--shade:{:.2f}\">{:.3f}{}</td>", shade > 0.6 ? "dark" : "",
-                      value == high ? " best" : "", shade, value, value == high ? " ★" : "");
+                      value == best ? " best" : "", shade, value, value == best ? " ★" : "");
     }
     body_ += "</tr>\n";
   }
@@ -181,6 +195,12 @@ void Page::chart(const Chart& chart, std::string_view caption) {
              "<div class=\"plot {}\"><canvas role=\"img\" tabindex=\"0\" aria-label=\"{}\"></canvas></div>",
              chart.size, escaped(chart.title)),
          to_json(chart), caption);
+}
+
+void Page::chart(std::string_view heading_text, const std::optional<Chart>& drawn, std::string_view caption) {
+  if (!drawn) return;
+  if (!heading_text.empty()) heading(heading_text);
+  chart(*drawn, caption);
 }
 
 void Page::matrix(const nlohmann::ordered_json& spec, std::string_view caption) {

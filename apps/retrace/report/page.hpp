@@ -2,7 +2,9 @@
 
 #include "report/chart.hpp"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +29,9 @@ struct HeatTable {
   std::vector<std::vector<double>> values;  ///< by row, then column; NaN: none
 };
 
+/// The least and the largest value of tables; (0, 0) without any.
+std::array<double, 2> value_range(const std::vector<HeatTable>& tables);
+
 /// A report: one HTML file with everything inside, readable offline, in light and dark, and on paper.
 class Page {
  public:
@@ -39,11 +44,14 @@ class Page {
   /// Name and value, one pair a row.
   void facts(const std::vector<std::pair<std::string, std::string>>& rows);
   void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
-  void heat_table(const HeatTable& table);
+  /// Side by side, all of one scale.
+  void heat_tables(const std::vector<HeatTable>& tables);
   /// A JPEG or PNG picture. `description` is read out to who cannot see it.
   void picture(const std::vector<std::uint8_t>& image, std::string_view description,
                std::string_view caption);
   void chart(const Chart& chart, std::string_view caption);
+  /// The same under a heading, both left out where there is no chart; an empty heading is none.
+  void chart(std::string_view heading, const std::optional<Chart>& chart, std::string_view caption);
   /// A cost matrix to zoom into: what matrix.js reads.
   void matrix(const nlohmann::ordered_json& spec, std::string_view caption);
   /// Pairs of frames to look through: what strip.js reads.
@@ -53,6 +61,7 @@ class Page {
   [[nodiscard]] std::string html() const;
 
  private:
+  void heat_table(const HeatTable& table, std::array<double, 2> range);
   void figure(std::string_view kind, std::string_view content, const nlohmann::ordered_json& spec,
               std::string_view caption);
 

@@ -1,8 +1,9 @@
 #include "run_charts.hpp"
 
+#include "report/pr_chart.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -13,45 +14,6 @@ namespace retrace {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// A column of the run's data; NaN for null.
-std::vector<double> numbers(const ordered_json& json, const char* name) {
-  std::vector<double> values;
-  if (!json.contains(name)) return values;
-  for (const ordered_json& value : json[name])
-    values.push_back(value.is_number() ? value.get<double>() : NAN);
-  return values;
-}
-
-const ordered_json& traverses(const RunView& run) {
-  static const ordered_json kNone = ordered_json::array();
-  return run.data.contains("traverses") ? run.data["traverses"] : kNone;
-}
-
-/// y at `at`, linear between the points of increasing x, as at the ends outside.
-double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto right = std::ranges::lower_bound(x, at);
-  if (right == x.begin()) return y.front();
-  if (right == x.end()) return y.back();
-  const auto i = static_cast<std::size_t>(right - x.begin());
-  return std::lerp(y[i - 1], y[i], (at - x[i - 1]) / (x[i] - x[i - 1]));
-}
-
-std::vector<double> upto(std::size_t count) {
-  std::vector<double> values(count);
-  std::iota(values.begin(), values.end(), 0.0);
-  return values;
-}
-
-/// The true place of a query frame on the reference, as a frame of it.
-std::optional<double> true_frame(const place::GroundTruth& truth, std::int64_t query_frame) {
-  if (truth.pairs) return place::true_reference_frame(*truth.pairs, static_cast<double>(query_frame));
-  const auto& along = truth.reference_distance_m;
-  if (query_frame >= static_cast<std::int64_t>(truth.query_distance_m.size()) || along.empty()) return {};
-  const double at_m = truth.query_distance_m[static_cast<std::size_t>(query_frame)];
-  if (at_m < along.front() || at_m > along.back()) return {};
-  return static_cast<double>(std::ranges::lower_bound(along, at_m) - along.begin());
-}
 
 /// Points of the matches for which `keep` holds.
 template <typename Keep, typename Value>
@@ -103,12 +65,10 @@ std::vector<NamedWalk> walks(const RunView& run) {
   return all;
 }
 
-/// Colours and dashes of the walks in one figure.
+/// A line without marks: these have too many points for them.
 Series walk_style(Series series, std::size_t index) {
-  static const std::vector<std::string> kColours{"orange", "blue", "green", "purple", "ochre", "grey"};
-  static const std::vector<std::vector<int>> kDashes{{}, {8, 3}, {2, 3}, {10, 3, 2, 3}};
-  series.colour = kColours[index % kColours.size()];
-  series.dash = kDashes[index % kDashes.size()];
+  series = styled(std::move(series), index);
+  series.mark.clear();
   return series;
 }
 
@@ -141,48 +101,12 @@ Series pose_series(const vo::Trajectory& trajectory, std::string name, std::stri
 
 }  // namespace
 
-std::optional<Chart> precision_recall_chart(const RunTruth& truth) {
-  Chart chart{.title = "precision against recall for every threshold",
-              .x_title = "recall",
-              .y_title = "precision",
-              .x_range = std::array{0.0, 1.0},
-              .y_range = std::array{0.0, 1.0},
-              .size = "tall"};
-  Series curve{.name = "every threshold", .colour = "blue", .mark = "circle"};
-  for (const place::OperatingPoint& p : truth.evaluation.curve) {
-    curve.x.push_back(p.recall);
-    curve.y.push_back(p.precision);
-    curve.notes.push_back(fmt::format("threshold {:.4g}, F1 {:.3f}", p.threshold, p.f1));
-  }
-  const auto point = [](std::string name, const place::OperatingPoint& p, std::string colour,
-                        std::string mark) {
-    return Series{.name = std::move(name),
-                  .x = {p.recall},
-                  .y = {p.precision},
-                  .colour = std::move(colour),
-                  .line = false,
-                  .mark = std::move(mark),
-                  .size_px = 9,
-                  .notes = {fmt::format("threshold {:.4g}, F1 {:.3f}", p.threshold, p.f1)}};
-  };
-  chart.series = {point("highest F1", truth.evaluation.best, "orange", "star"),
-                  point("as accepted", truth.accepted, "green", "diamond"), curve};
-  for (const double f1 : {0.2, 0.4, 0.6, 0.8, 0.9}) {  // precision = f1 recall / (2 recall - f1)
-    Series line{.name = fmt::format("F1 {}", f1),
-                .colour = "grey",
-                .dash = {3, 4},
-                .width_px = 1,
-                .label_at_end = true};
-    constexpr int kPoints = 40;
-    const double least = f1 / (2 - f1);  // the recall where precision is 1
-    for (int i = 0; i <= kPoints; ++i) {
-      const double recall =
-          std::lerp(least, 1.0, std::pow(static_cast<double>(i) / kPoints, 2));  // closer where it is steep
-      line.x.push_back(recall);
-      line.y.push_back(f1 * recall / (2 * recall - f1));
-    }
-    chart.series.push_back(std::move(line));
-  }
+Chart precision_recall_chart(const RunTruth& truth) {
+  Chart chart = precision_recall_plane();
+  chart.series.insert(chart.series.begin(),
+                      {operating_point("highest F1", truth.evaluation.best, "orange", "star"),
+                       operating_point("as accepted", truth.accepted, "green", "diamond"),
+                       precision_recall_curve("every threshold", truth.evaluation)});
   return chart;
 }
 
@@ -347,61 +271,6 @@ std::optional<Chart> map_chart(const RunView& run) {
   if (chart.series.empty()) return {};
   std::ranges::reverse(chart.series);  // the first is drawn on top
   return chart;
-}
-
-std::vector<ordered_json> matrix_specs(const RunView& run) {
-  std::vector<ordered_json> specs;
-  for (const ordered_json& traverse : traverses(run)) {
-    if (!traverse.contains("pictures") || traverse["pictures"].empty()) continue;
-    const std::vector<double> frames = numbers(traverse, "frame");
-    const std::vector<double> keyframe = upto(frames.size());
-    ordered_json matches = ordered_json::array(), truth = ordered_json::array();
-    for (std::size_t q = 0; q < run.matches.size(); ++q) {
-      const MatchRow& match = run.matches[q];
-      ordered_json reference;
-      if (match.reference_frame && match.traverse == traverse["name"])
-        reference = std::lround(interpolated(frames, keyframe, static_cast<double>(*match.reference_frame)));
-      matches.push_back({{"query", q},
-                         {"frame", match.query_frame},
-                         {"time_s", rounded(match.query_time_s)},
-                         {"reference", reference},
-                         {"score", rounded(match.score)},
-                         {"accepted", match.accepted}});
-      if (run.truth == nullptr) continue;
-      const auto frame = true_frame(run.truth->truth, match.query_frame);
-      truth.push_back(frame ? rounded(interpolated(frames, keyframe, *frame)) : nullptr);
-    }
-    ordered_json spec{{"traverse", traverse["name"]},     {"queries", run.matches.size()},
-                      {"references", frames.size()},      {"reference_frames", traverse["frame"]},
-                      {"pictures", traverse["pictures"]}, {"matches", std::move(matches)}};
-    if (run.truth != nullptr) spec["truth"] = std::move(truth);
-    specs.push_back(std::move(spec));
-  }
-  return specs;
-}
-
-ordered_json strip_spec(const RunView& run) {
-  ordered_json spec{{"unit", "m"}, {"pairs", ordered_json::array()}};
-  if (run.truth != nullptr && run.truth->unit == place::ErrorUnit::kFrames) spec["unit"] = "frames";
-  if (!run.data.contains("pairs")) return spec;
-  for (const ordered_json& stored : run.data["pairs"]) {
-    const auto q = stored["keyframe"].get<std::size_t>();
-    if (q >= run.matches.size() || !run.matches[q].reference_frame) continue;
-    const MatchRow& match = run.matches[q];
-    ordered_json pair = stored;
-    pair["query_frame"] = match.query_frame;
-    pair["time_s"] = rounded(match.query_time_s);
-    pair["reference_frame"] = *match.reference_frame;
-    pair["reference_time_s"] = rounded(match.reference_time_s);
-    pair["score"] = rounded(match.score);
-    pair["accepted"] = match.accepted;
-    if (run.truth != nullptr && run.truth->errors[q].error) {
-      pair["error"] = rounded(*run.truth->errors[q].error);
-      pair["right"] = *run.truth->errors[q].error <= run.truth->tolerance;
-    }
-    spec["pairs"].push_back(std::move(pair));
-  }
-  return spec;
 }
 
 }  // namespace retrace

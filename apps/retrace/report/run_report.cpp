@@ -3,6 +3,7 @@
 #include "matches_file.hpp"
 #include "report/page.hpp"
 #include "report/run_charts.hpp"
+#include "report/run_pictures.hpp"
 #include "report/settings_table.hpp"
 
 #include <fstream>
@@ -80,13 +81,6 @@ void put_operating_points(Page& page, const RunTruth& truth) {
   }
 }
 
-void put_chart(Page& page, const std::optional<Chart>& chart, std::string_view title,
-               std::string_view caption) {
-  if (!chart) return;
-  if (!title.empty()) page.heading(title);
-  page.chart(*chart, caption);
-}
-
 }  // namespace
 
 const std::string_view kCounting =
@@ -113,17 +107,17 @@ std::string run_report(const fs::path& folder, const ordered_json& data, const R
   if (truth != nullptr) put_scores(page, *truth);
   put_counts(page, summary);
   if (truth != nullptr) {
-    put_chart(
-        page, precision_recall_chart(*truth), "Precision and recall",
+    page.chart(
+        "Precision and recall", precision_recall_chart(*truth),
         "Every point is a threshold of the score. The star is the threshold of the highest F1, the diamond "
         "the run's own acceptance; dashed lines join points of equal F1.");
     put_operating_points(page, *truth);
-    put_chart(page, error_chart(view), "Error along the walk",
-              "Errors beyond the upper edge are drawn on it; hover for their values.");
+    page.chart("Error along the walk", error_chart(view),
+               "Errors beyond the upper edge are drawn on it; hover for their values.");
   } else {
     page.paragraph("Precision, recall and errors need the truth: retrace evaluate.");
   }
-  put_chart(page, score_chart(view), "Score along the walk", "A higher score is a surer match.");
+  page.chart("Score along the walk", score_chart(view), "A higher score is a surer match.");
   for (const ordered_json& matrix : matrix_specs(view)) {
     page.heading(fmt::format("Cost matrix against {}", matrix["traverse"].get<std::string>()));
     page.matrix(
@@ -131,21 +125,21 @@ std::string run_report(const fs::path& folder, const ordered_json& data, const R
         "Dark where alike. Raw: mean absolute difference of the descriptors; enhanced: as it was searched. "
         "Drag or use the arrows to move, + and - (or the wheel with Ctrl) to zoom.");
   }
-  put_chart(page, speed_chart(view), "Speed, before and after normalisation",
-            "Before: travelled displacement in a second, over a second about each moment [SSS Fig. 6].");
-  put_chart(
-      page, keyframe_chart(view), "",
+  page.chart("Speed, before and after normalisation", speed_chart(view),
+             "Before: travelled displacement in a second, over a second about each moment [SSS Fig. 6].");
+  page.chart(
+      "", keyframe_chart(view),
       "After: displacement between neighbouring keyframes, in units of the sampling: constant, but where the "
       "walker covers more than a unit between two frames [SSS Fig. 7].");
-  put_chart(
-      page, spacing_chart(view), "",
+  page.chart(
+      "", spacing_chart(view),
       "Metres truly walked between neighbouring keyframes. The closer the two walks, the straighter the path "
       "through the matrix, and the nearer to 45 degrees.");
   if (const ordered_json strip = strip_spec(view); !strip["pairs"].empty()) {
     page.heading("What was taken for the same place");
     page.strip(strip, "Query above, the place of the route where it was found below.");
   }
-  put_chart(page, map_chart(view), "Map", "Metres, in the coordinates of the route.");
+  page.chart("Map", map_chart(view), "Metres, in the coordinates of the route.");
   if (truth != nullptr) {
     page.heading("How it was counted");
     page.paragraph(kCounting);

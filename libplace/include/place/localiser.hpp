@@ -1,6 +1,8 @@
 #pragma once
 
+#include "place/candidates.hpp"
 #include "place/contrast_enhancement.hpp"
+#include "place/drift_correction.hpp"
 #include "place/match.hpp"
 #include "place/openseqslam.hpp"
 #include "place/relative_scale.hpp"
@@ -33,9 +35,10 @@ struct SampledWalk {
       displacement;              ///< of every frame of the walk since the one before; empty without motion
   vo::ImageStack thumbnails;     ///< of the keyframes
   vo::MotionModel motion_model;  ///< of alignment error, learned on the walk; nothing in it without
-  bool metric = false;           ///< the displacement is in metres
-  double scale = 1;              ///< the displacement was multiplied by this to fit the route's
-  double unit = 0;               ///< displacement between keyframes (SSS Eq. 4); 0 without motion
+  bool metric = false;           ///< the displacement came in metres
+  vo::Trajectory trajectory;  ///< by that motion, at every frame; empty unless metres and headings are known
+  double scale = 1;           ///< the displacement was multiplied by this to fit the route's
+  double unit = 0;            ///< displacement between keyframes (SSS Eq. 4); 0 without motion
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
 };
 
@@ -45,9 +48,11 @@ struct SampledWalk {
 SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
                         const WalkSamplingOptions& options);
 
-/// What poses and distances a walk's frames have, where they were surveyed.
+/// What poses and distances a walk's frames have, where they were surveyed (or its odometry, without
+/// distances).
 struct Survey {
   std::string source;                             ///< the file's name
+  bool surveyed = true;                           ///< false: the walk's own odometry
   std::vector<std::optional<vo::Pose2>> pose;     ///< by frame
   std::vector<std::optional<double>> distance_m;  ///< by frame
 };
@@ -57,8 +62,17 @@ struct Survey {
 Traverse make_traverse(const std::string& name, const vo::Walk& walk, const SampledWalk& sampled,
                        const std::optional<Survey>& survey);
 
+/// Whether a walk is compared with all of a traverse or with a shortlist of it.
+enum class CandidateUse {
+  kAuto,    ///< a shortlist where walk and traverse are so long that it saves time
+  kNever,   ///< always all
+  kAlways,  ///< always a shortlist
+};
+
 /// Settings of `localise`.
 struct LocaliserOptions {
+  CandidateUse candidate_use = CandidateUse::kAuto;
+  CandidateOptions candidates;  ///< its margin is widened to half a line
   CostOptions cost;
   ContrastEnhancementOptions enhancement;
   SequenceSearchOptions search;
@@ -74,7 +88,8 @@ struct LocaliserOptions {
 struct SearchMatrices {
   CostMatrix cost;
   CostMatrix enhanced;
-  std::size_t shrink = 1;  ///< a cell is the least of so many by so many, where the matrix is a large one
+  std::size_t shrink = 1;  ///< a cell is the least of so many by so many, where the matrix is a large one;
+                           ///< infinite where no pair of them was compared
 };
 inline constexpr std::size_t kLargestMatrix = 1024;  ///< cells along a side, above which it is shrunk
 
@@ -92,5 +107,15 @@ struct Localisation {
 /// metres asks for them.
 Localisation localise(const Route& route, const vo::Walk& walk, const SampledWalk& sampled,
                       const LocaliserOptions& options);
+
+/// Where accepted matches put a walk, for `correct_drift`, whose nodes are the query keyframes.
+struct RouteFixes {
+  std::vector<PoseFix> fixes;
+  std::optional<std::size_t> traverse;  ///< the one that most of them are on; none without fixes
+};
+
+/// Poses of different surveys share their coordinates, but two walks' own odometry does not: fixes are on
+/// surveyed traverses if any match is, else on the one that most matches are on. O(matches + traverses).
+RouteFixes pose_fixes(const Route& route, const std::vector<Match>& matches);
 
 }  // namespace place

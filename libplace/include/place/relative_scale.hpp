@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include <vo/image/image_stack.hpp>
 
 namespace place {
@@ -13,6 +15,8 @@ struct RelativeScaleOptions {
   /// Deviations of cost a scale must gain for every squared unit of its logarithm: where the matrix hardly
   /// tells, the walks are taken to be of like speed.
   double prior_weight = 0.1;
+  std::size_t largest_reference =
+      50'000;  ///< keyframes; of more, only the likely ones are compared (`candidates`)
 };
 
 /// How far one query keyframe step reaches, in reference keyframe steps, found by matching alone.

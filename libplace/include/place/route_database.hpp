@@ -24,6 +24,7 @@ struct Sampling {
   std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4; with metric motion
   double unit =
       0;  ///< SSS Eq. 4's u, in the displacement's unit, learned from the first traverse; with motion
+  bool metric = false;  ///< that unit is the metre; otherwise frames at the first traverse's mean speed
 };
 
 /// A place on a traverse.
@@ -45,11 +46,18 @@ struct Traverse {
   int frame_width_px = 0;
   int frame_height_px = 0;
   std::string pose_source;  ///< file the poses came from, without folders; empty if none
+  bool surveyed = true;     ///< false: the poses are the walk's own odometry, from where it began
   vo::MotionModel motion_model;
   std::vector<Keyframe> keyframes;
   vo::ImageStack thumbnails;  ///< one for each keyframe
   std::map<std::string, std::string>
       settings;  ///< every setting that shaped it, by its name on the command line
+};
+
+/// Where on the earth a route's poses are (0, 0): x goes east, y north.
+struct GeographicOrigin {
+  double latitude_deg = 0;   ///< WGS 84
+  double longitude_deg = 0;  ///< WGS 84
 };
 
 /// A reference route: any number of traverses of it, by day, by night.
@@ -58,11 +66,13 @@ struct Route {
   vo::PatchNormalisationOptions patch;
   Sampling sampling;
   std::vector<Traverse> traverses;
-  std::string software_version;  ///< of the program that wrote it
+  std::optional<GeographicOrigin> origin;  ///< where the surveyed poses are geographic
+  std::string software_version;            ///< of the program that wrote it
 };
 
-/// The layout of the file that this version reads and writes.
-inline constexpr int kRouteSchemaVersion = 1;
+/// The layout of the file that this version writes. It reads all before as well: 1 had surveyed poses only,
+/// and no origin.
+inline constexpr int kRouteSchemaVersion = 2;
 
 /// What to leave in the file.
 struct RouteReadOptions {

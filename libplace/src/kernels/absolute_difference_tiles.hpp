@@ -39,8 +39,7 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
     for (std::size_t j = 0; j < kReferences; ++j) {
       typename Lanes::Bytes reference = load(tile.references + j * size);
       Lanes::keep_in_register(reference);
-      for (std::size_t i = 0; i < kQueries; ++i)
-        sums[i][j] = Lanes::add(sums[i][j], queries[i], reference);
+      for (std::size_t i = 0; i < kQueries; ++i) sums[i][j] = Lanes::add(sums[i][j], queries[i], reference);
     }
   };
   const std::size_t whole = size - size % Lanes::kBytes;
@@ -48,13 +47,11 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
     add_all([k](const std::uint8_t* image) __attribute__((always_inline)) { return Lanes::load(image + k); });
   }
   if (const std::size_t rest = size - whole; rest > 0) {
-    add_all([size, rest](const std::uint8_t* image) __attribute__((always_inline)) {
-      return Lanes::load_last(image + size, rest);
-    });
+    add_all([ size, rest ](const std::uint8_t* image)
+                __attribute__((always_inline)) { return Lanes::load_last(image + size, rest); });
   }
   for (std::size_t i = 0; i < kQueries; ++i) {
-    for (std::size_t j = 0; j < kReferences; ++j)
-      tile.sums[i * tile.stride + j] = Lanes::total(sums[i][j]);
+    for (std::size_t j = 0; j < kReferences; ++j) tile.sums[i * tile.stride + j] = Lanes::total(sums[i][j]);
   }
 }
 

@@ -224,6 +224,22 @@ TEST_F(LocaliserTest, FindsAWalkAtAnotherSpeed) {
   }
 }
 
+TEST_F(LocaliserTest, FindsAWalkAmongCandidates) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  const auto exact = place::localise(route_, query.walk, sampled, options_);
+  options_.candidate_use = place::CandidateUse::kAlways;
+  options_.candidates = {.sample = 8, .run = 8, .stretches = 1, .margin = 0};
+  const auto found = place::localise(route_, query.walk, sampled, options_);
+  std::size_t unlike = 0, left_out = 0;
+  for (std::size_t q = 0; q < exact.matches.size(); ++q)
+    unlike += exact.matches[q].place->keyframe != found.matches[q].place->keyframe ? 1 : 0;
+  EXPECT_LE(unlike, exact.matches.size() / 10);  // a neighbour where two are all but as good
+  for (const float value : found.matrices[0].cost.values) left_out += std::isinf(value) ? 1 : 0;
+  EXPECT_GT(left_out, 0U);
+  EXPECT_EQ(found.matrices[0].cost.references, route_.traverses[0].keyframes.size());
+}
+
 TEST_F(LocaliserTest, ShrinksLargeMatricesUnlessTheyAreAskedFor) {
   // A traverse of noise, three times as long as a matrix is kept whole.
   const std::size_t references = 3 * place::kLargestMatrix - 7;
@@ -397,6 +413,46 @@ TEST_F(LocaliserTest, IsTheSameForAnyThreadCount) {
     EXPECT_EQ(one.matches[q].place->keyframe, four.matches[q].place->keyframe);
     EXPECT_EQ(one.matches[q].score, four.matches[q].score);
   }
+}
+
+/// A match of keyframe q to a traverse; with a pose `x_m` east, unless that is missing.
+place::Match match_on(const std::string& traverse, std::optional<double> x_m, bool accepted = true) {
+  place::Match match{.score = 2, .accepted = accepted};
+  match.place = place::Place{.traverse = traverse};
+  if (x_m) match.place->pose = vo::Pose2{*x_m, 0, 0};
+  return match;
+}
+
+TEST(PoseFixes, AreSurveyedIfAnyIs) {
+  place::Route route;
+  route.traverses.resize(4);
+  const char* names[] = {"own odometry", "survey", "second survey", "own again"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    route.traverses[i].name = names[i];
+    route.traverses[i].surveyed = i == 1 || i == 2;
+  }
+  std::vector<place::Match> matches{match_on("own odometry", 1),         match_on("survey", 2),
+                                    match_on("own odometry", 3),         match_on("own odometry", 4),
+                                    match_on("second survey", 5),        match_on("second survey", 6),
+                                    match_on("second survey", 7, false), match_on("survey", {})};
+  matches.emplace_back();  // nothing matched
+  const auto surveyed = place::pose_fixes(route, matches);
+  ASSERT_THAT(surveyed.fixes, SizeIs(3));
+  EXPECT_EQ(surveyed.fixes[0].node, 1U);
+  EXPECT_EQ(surveyed.fixes[0].pose.x_m, 2);
+  EXPECT_EQ(surveyed.fixes[0].score, 2);
+  EXPECT_EQ(surveyed.fixes[2].node, 5U);
+  EXPECT_EQ(surveyed.traverse, 2U);  // with two of the three
+
+  // Two walks' odometry have nothing in common: the one with more.
+  const auto own = place::pose_fixes(
+      route, {match_on("own again", 1), match_on("own odometry", 2), match_on("own odometry", 3)});
+  ASSERT_THAT(own.fixes, SizeIs(2));
+  EXPECT_EQ(own.fixes[0].node, 1U);
+  EXPECT_EQ(own.traverse, 0U);
+
+  EXPECT_THAT(place::pose_fixes(route, {}).fixes, IsEmpty());
+  EXPECT_FALSE(place::pose_fixes(route, {match_on("survey", {})}).traverse);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "sqlite.hpp"
 #include "support/random_images.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -50,11 +51,13 @@ place::Route example_route() {
   place::Route route;
   route.thumbnail = {.width = 16, .height = 8};
   route.patch = {.patch_px = 4, .shape = vo::PatchShape::kWindow, .min_deviation = 1.5, .min_contrast = 0.7};
-  route.sampling = {.motion = vo::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1};
+  route.sampling = {.motion = vo::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1, .metric = true};
   route.traverses.push_back(example_traverse("by day", 600, 1));    // three chunks, the last one not full
   route.traverses.push_back(example_traverse("by night", 256, 2));  // one full chunk
   route.traverses.push_back(example_traverse("", 0, 3));            // no keyframe
   route.traverses.push_back(example_traverse("short", 1, 4));
+  route.traverses[1].surveyed = false;
+  route.origin = {.latitude_deg = -33.85678, .longitude_deg = 151.21528};
   return route;
 }
 
@@ -66,6 +69,7 @@ void expect_equal(const place::Traverse& a, const place::Traverse& b) {
   EXPECT_EQ(a.frame_width_px, b.frame_width_px);
   EXPECT_EQ(a.frame_height_px, b.frame_height_px);
   EXPECT_EQ(a.pose_source, b.pose_source);
+  EXPECT_EQ(a.surveyed, b.surveyed);
   EXPECT_EQ(a.motion_model.error, b.motion_model.error);
   EXPECT_EQ(a.motion_model.separation, b.motion_model.separation);
   EXPECT_EQ(a.settings, b.settings);
@@ -99,6 +103,12 @@ void expect_equal(const place::Route& a, const place::Route& b) {
   EXPECT_EQ(a.sampling.every, b.sampling.every);
   EXPECT_EQ(a.sampling.n, b.sampling.n);
   EXPECT_EQ(a.sampling.unit, b.sampling.unit);
+  EXPECT_EQ(a.sampling.metric, b.sampling.metric);
+  ASSERT_EQ(a.origin.has_value(), b.origin.has_value());
+  if (a.origin) {
+    EXPECT_EQ(a.origin->latitude_deg, b.origin->latitude_deg);
+    EXPECT_EQ(a.origin->longitude_deg, b.origin->longitude_deg);
+  }
   ASSERT_EQ(a.traverses.size(), b.traverses.size());
   for (std::size_t i = 0; i < a.traverses.size(); ++i) {
     SCOPED_TRACE(i);
@@ -180,11 +190,24 @@ TEST(RouteDatabase, RefusesAnotherProgramsDatabaseAndANewerSchema) {
   std::string newer = bytes;
   newer[63] = static_cast<char>(place::kRouteSchemaVersion + 1);
   EXPECT_THROW_WITH(place::read_route(folder.write("newer.db", newer)), vo::Error,
-                    "newer.db: has schema version 2, written by a newer retrace");
+                    "newer.db: has schema version 3, written by a newer retrace");
   std::string other = bytes;
   other[71] = static_cast<char>(other[71] + 1);
   EXPECT_THROW_WITH(place::read_route(folder.write("other.db", other)), vo::Error,
                     "other.db: is no route database");
+}
+
+TEST(RouteDatabase, ReadsSchemaOne) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  place::write_route(folder / "r.db", route);
+  place::sqlite::Database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db")
+      .run(
+          "ALTER TABLE traverse DROP COLUMN surveyed; DROP TABLE geographic_origin; PRAGMA user_version = "
+          "1;");
+  route.traverses[1].surveyed = true;  // all were
+  route.origin.reset();
+  expect_equal(place::read_route(folder / "r.db"), route);
 }
 
 TEST(RouteDatabase, FindsTruncation) {

@@ -52,8 +52,8 @@ DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> l
                           const DeadReckoningOptions& options = {});
 
 /// Joins displacements from any source and headings to the pose at each frame, from (0, 0):
-/// x_i = x_(i-1) + displacement_i * sin(heading_i), y with cos. One of each per frame, `heading_rad` clockwise
-/// from +y. Throws `std::invalid_argument` if the sizes disagree. O(n).
+/// x_i = x_(i-1) + displacement_i * sin(heading_i), y with cos. One of each per frame, `heading_rad`
+/// clockwise from +y. Throws `std::invalid_argument` if the sizes disagree. O(n).
 Trajectory dead_reckon(std::span<const double> displacement_m, std::span<const double> heading_rad,
                        std::span<const double> time_s);
 

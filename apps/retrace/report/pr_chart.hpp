@@ -1,0 +1,21 @@
+#pragma once
+
+#include "report/chart.hpp"
+
+#include <string>
+
+#include <place/evaluation.hpp>
+
+namespace retrace {
+
+/// The plane of recall and precision with its lines of equal F1, to put curves before.
+Chart precision_recall_plane();
+
+/// Precision against recall at every threshold, which hovering tells.
+Series precision_recall_curve(std::string name, const place::Evaluation& evaluation);
+
+/// One point of it, large.
+Series operating_point(std::string name, const place::OperatingPoint& point, std::string colour,
+                       std::string mark);
+
+}  // namespace retrace

@@ -1,0 +1,80 @@
+#include "run_pictures.hpp"
+
+#include "report/chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace retrace {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// The true place of a query frame on the reference, as a frame of it.
+std::optional<double> true_frame(const place::GroundTruth& truth, std::int64_t query_frame) {
+  if (truth.pairs) return place::true_reference_frame(*truth.pairs, static_cast<double>(query_frame));
+  const auto& along = truth.reference_distance_m;
+  if (query_frame >= static_cast<std::int64_t>(truth.query_distance_m.size()) || along.empty()) return {};
+  const double at_m = truth.query_distance_m[static_cast<std::size_t>(query_frame)];
+  if (at_m < along.front() || at_m > along.back()) return {};
+  return static_cast<double>(std::ranges::lower_bound(along, at_m) - along.begin());
+}
+
+}  // namespace
+
+std::vector<ordered_json> matrix_specs(const RunView& run) {
+  std::vector<ordered_json> specs;
+  for (const ordered_json& traverse : traverses(run)) {
+    if (!traverse.contains("pictures") || traverse["pictures"].empty()) continue;
+    const std::vector<double> frames = numbers(traverse, "frame");
+    const std::vector<double> keyframe = upto(frames.size());
+    ordered_json matches = ordered_json::array(), truth = ordered_json::array();
+    for (std::size_t q = 0; q < run.matches.size(); ++q) {
+      const MatchRow& match = run.matches[q];
+      ordered_json reference;
+      if (match.reference_frame && match.traverse == traverse["name"])
+        reference = std::lround(interpolated(frames, keyframe, static_cast<double>(*match.reference_frame)));
+      matches.push_back({{"query", q},
+                         {"frame", match.query_frame},
+                         {"time_s", rounded(match.query_time_s)},
+                         {"reference", reference},
+                         {"score", rounded(match.score)},
+                         {"accepted", match.accepted}});
+      if (run.truth == nullptr) continue;
+      const auto frame = true_frame(run.truth->truth, match.query_frame);
+      truth.push_back(frame ? rounded(interpolated(frames, keyframe, *frame)) : nullptr);
+    }
+    ordered_json spec{{"traverse", traverse["name"]},     {"queries", run.matches.size()},
+                      {"references", frames.size()},      {"reference_frames", traverse["frame"]},
+                      {"pictures", traverse["pictures"]}, {"matches", std::move(matches)}};
+    if (run.truth != nullptr) spec["truth"] = std::move(truth);
+    specs.push_back(std::move(spec));
+  }
+  return specs;
+}
+
+ordered_json strip_spec(const RunView& run) {
+  ordered_json spec{{"unit", "m"}, {"pairs", ordered_json::array()}};
+  if (run.truth != nullptr && run.truth->unit == place::ErrorUnit::kFrames) spec["unit"] = "frames";
+  if (!run.data.contains("pairs")) return spec;
+  for (const ordered_json& stored : run.data["pairs"]) {
+    const auto q = stored["keyframe"].get<std::size_t>();
+    if (q >= run.matches.size() || !run.matches[q].reference_frame) continue;
+    const MatchRow& match = run.matches[q];
+    ordered_json pair = stored;
+    pair["query_frame"] = match.query_frame;
+    pair["time_s"] = rounded(match.query_time_s);
+    pair["reference_frame"] = *match.reference_frame;
+    pair["reference_time_s"] = rounded(match.reference_time_s);
+    pair["score"] = rounded(match.score);
+    pair["accepted"] = match.accepted;
+    if (run.truth != nullptr && run.truth->errors[q].error) {
+      pair["error"] = rounded(*run.truth->errors[q].error);
+      pair["right"] = *run.truth->errors[q].error <= run.truth->tolerance;
+    }
+    spec["pairs"].push_back(std::move(pair));
+  }
+  return spec;
+}
+
+}  // namespace retrace

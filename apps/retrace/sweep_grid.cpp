@@ -1,0 +1,167 @@
+#include "sweep_grid.hpp"
+
+#include "config_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vo/base/error.hpp>
+#include <vo/io/csv.hpp>
+
+namespace retrace {
+namespace {
+
+/// A column of sweep.csv.
+struct Column {
+  const char* name;
+  double CellResult::*value;
+};
+
+constexpr std::array kColumns{Column{"max_f1", &CellResult::max_f1},
+                              Column{"max_f1_threshold", &CellResult::max_f1_threshold},
+                              Column{"precision", &CellResult::precision},
+                              Column{"recall", &CellResult::recall},
+                              Column{"auc_pr", &CellResult::auc_pr},
+                              Column{"recall_at_100_precision", &CellResult::recall_at_100_precision},
+                              Column{"recall_at_1", &CellResult::recall_at_1}};
+
+std::string group_of(const std::string& setting) {
+  const std::vector<SettingEntry> all = entries({});
+  const auto found = std::ranges::find(all, setting, &SettingEntry::name);
+  if (found != all.end()) return found->group;
+  std::vector<std::string> names;
+  for (const SettingEntry& entry : all) names.push_back(entry.name);
+  const std::string nearest = nearest_name(setting, names);
+  throw vo::Error(setting, "is no setting",
+                  nearest.empty() ? "a name of configs/default.toml" : nearest + "?");
+}
+
+/// What may change from cell to cell, though all walks are read once: not the pictures and points kept of
+/// them.
+bool can_vary(const std::string& setting) {
+  static const std::set<std::string> kAfterReading{"step-length", "step-length-model", "lowpass-order",
+                                                   "lowpass-cutoff-hz", "min-step-deg"};
+  static const std::set<std::string> kNotHere{"compat", "sequence-length-m", "threads", "accept-score"};
+  if (kNotHere.contains(setting)) return false;
+  const std::string group = group_of(setting);
+  return group == "Search" || group == "Motion and sampling" || setting.starts_with("patch-") ||
+         kAfterReading.contains(setting);
+}
+
+std::string row(const Cell& cell, const std::optional<CellResult>& result) {
+  std::string text = fmt::format("{}", fmt::join(cell, ","));
+  text += result ? fmt::format(",{},{}", result->query_keyframes, result->reference_keyframes) : ",,";
+  for (const Column& column : kColumns)
+    text += result ? fmt::format(",{:.9g}", (*result).*column.value) : ",";
+  return text + "\n";
+}
+
+}  // namespace
+
+Axis parse_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  Axis axis;
+  if (equals != std::string::npos) {
+    axis = {text.substr(0, equals), CLI::detail::split(text.substr(equals + 1), ',')};
+    axis.setting.erase(0, std::min(axis.setting.find_first_not_of('-'), axis.setting.size()));
+  }
+  std::erase(axis.values, "");
+  if (axis.setting.empty() || axis.values.empty())
+    throw vo::Error("--vary " + text, "is no setting with values", "NAME=a,b,c");
+  return axis;
+}
+
+std::vector<Cell> all_cells(const std::vector<Axis>& axes) {
+  std::vector<Cell> cells{{}};
+  for (const Axis& axis : axes) {
+    std::vector<Cell> longer;
+    for (const Cell& cell : cells) {
+      for (const std::string& value : axis.values) {
+        longer.push_back(cell);
+        longer.back().push_back(value);
+      }
+    }
+    cells = std::move(longer);
+  }
+  return cells;
+}
+
+Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const Cell& cell) {
+  Settings settings = base;
+  CLI::App app;
+  add_all_options(app, settings);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (!can_vary(axes[i].setting))
+      throw vo::Error("--vary " + axes[i].setting, "cannot vary", "a setting of sampling or search");
+    // The options' own checks and conversions, one setting at a time, so that a message names it.
+    try {
+      app.parse(std::vector<std::string>{fmt::format("--{}={}", axes[i].setting, cell[i])});
+    } catch (const CLI::ParseError& error) {
+      throw vo::Error(fmt::format("{}={}", axes[i].setting, cell[i]), error.what());
+    }
+  }
+  place::Sampling& sampling = settings.sampling.sampling;
+  if (sampling.motion == vo::MotionSource::kFile)
+    throw vo::Error("motion=file", "cannot be swept", "a motion that both walks show themselves");
+  if (sampling.motion != vo::MotionSource::kNone) sampling.every = 1;
+  if (sampling.motion != vo::MotionSource::kSteps) sampling.spacing_m.reset();
+  resolve(app, settings);
+  return settings;
+}
+
+bool shapes_the_matrix(const std::string& setting) {
+  return group_of(setting) != "Search";
+}
+
+std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results) {
+  std::string csv;
+  for (const Axis& axis : axes) csv += axis.setting + ",";
+  csv += "query_keyframes,reference_keyframes";
+  for (const Column& column : kColumns) csv += fmt::format(",{}", column.name);
+  csv += "\n";
+  SweepResults left = results;
+  for (const Cell& cell : all_cells(axes)) {
+    const auto found = left.find(cell);
+    if (found == left.end()) continue;
+    csv += row(cell, found->second);
+    left.erase(found);
+  }
+  for (const auto& [cell, result] : left) csv += row(cell, result);
+  return csv;
+}
+
+SweepResults read_sweep(const std::filesystem::path& path, const std::vector<Axis>& axes) {
+  SweepResults results;
+  if (!std::filesystem::exists(path)) return results;
+  const vo::CsvTable table = vo::CsvTable::read(path);
+  std::vector<Cell> cells(table.rows());
+  for (const Axis& axis : axes) {
+    if (!table.has(axis.setting))
+      throw vo::Error(path.string(), fmt::format("is of a sweep that did not vary {}", axis.setting),
+                      "the same axes, another folder, or --force to begin anew");
+    const std::vector<std::string> values = table.text(axis.setting);
+    for (std::size_t i = 0; i < cells.size(); ++i) cells[i].push_back(values[i]);
+  }
+  const auto query = table.optional_numbers("query_keyframes");
+  const auto reference = table.optional_numbers("reference_keyframes");
+  std::vector<std::optional<CellResult>> read(table.rows());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    if (!query[i] || !reference[i]) continue;
+    read[i] = CellResult{.query_keyframes = static_cast<std::size_t>(*query[i]),
+                         .reference_keyframes = static_cast<std::size_t>(*reference[i])};
+  }
+  for (const Column& column : kColumns) {
+    const auto values = table.optional_numbers(column.name);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      if (read[i]) (*read[i]).*column.value = values[i].value_or(0);
+    }
+  }
+  for (std::size_t i = 0; i < read.size(); ++i) results[cells[i]] = read[i];
+  return results;
+}
+
+}  // namespace retrace

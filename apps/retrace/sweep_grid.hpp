@@ -1,0 +1,54 @@
+#pragma once
+
+#include "settings.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <place/evaluation.hpp>
+
+namespace retrace {
+
+/// A setting and the values it takes.
+struct Axis {
+  std::string setting;  ///< its name, without dashes
+  std::vector<std::string> values;
+};
+
+/// A cell of a sweep: one value for each axis.
+using Cell = std::vector<std::string>;
+
+/// What came out of a cell.
+struct CellResult {
+  std::size_t query_keyframes = 0;
+  std::size_t reference_keyframes = 0;
+  double max_f1 = 0, max_f1_threshold = 0, precision = 0, recall = 0;
+  double auc_pr = 0, recall_at_100_precision = 0, recall_at_1 = 0;
+};
+
+/// None for a cell that cannot be run: a walk without steps, a route shorter than the sequence.
+using SweepResults = std::map<Cell, std::optional<CellResult>>;
+
+/// `NAME=a,b,c`. Throws `vo::Error` for anything else.
+Axis parse_axis(const std::string& text);
+
+/// Every cell, the last axis fastest.
+std::vector<Cell> all_cells(const std::vector<Axis>& axes);
+
+/// The settings of a cell: `base` with the axes' values in it. Throws `vo::Error` naming a setting that there
+/// is not, that is fixed once a walk is read, or that does not take its value.
+Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const Cell& cell);
+
+/// True if the setting changes keyframes or their descriptors, and so the cost matrix.
+bool shapes_the_matrix(const std::string& setting);
+
+/// sweep.csv: a row for each cell, those of the grid first and in its order.
+std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results);
+
+/// Reads it back; empty if it is not there. Throws `vo::Error` if it is of other axes.
+SweepResults read_sweep(const std::filesystem::path& path, const std::vector<Axis>& axes);
+
+}  // namespace retrace
