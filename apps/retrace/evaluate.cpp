@@ -150,7 +150,7 @@ EvaluatedRun evaluate_run(const EvaluationInputs& inputs) {
   truth.accepted = accepted_point(rows, queries, truth.tolerance);
   std::string unit = name_of(truth.unit);
   ordered_json metrics = metrics_json(truth.evaluation, truth.accepted, truth.tolerance, unit);
-  if (!inputs.query_truth.empty()) metrics.update(trajectory_metrics(folder, inputs.query_truth));
+  if (!inputs.truth.query_truth.empty()) metrics.update(trajectory_metrics(folder, inputs.truth.query_truth));
   vo::write_file(folder / "metrics.json", metrics.dump(2) + "\n");
   vo::write_file(folder / "pr.csv", pr_csv(truth.evaluation));
   vo::write_file(folder / "errors.csv", errors_csv(rows, queries));

@@ -39,8 +39,6 @@ struct LocaliseOptions {
   bool save_matrices = false;
 };
 
-}
-
 /// One line for each row, nine digits, which tell floats apart.
 std::string matrix_csv(const place::CostMatrix& matrix) {
   fmt::memory_buffer text;

@@ -176,7 +176,10 @@ HybridMotion hybrid_motion(const MotionEvidence& evidence, const HybridMotionOpt
 
   for (std::size_t i = 1; i < count; ++i) {
     FrameDisplacement& frame = motion.frames[i];
-    const bool still = !evidence.standing.empty() && evidence.standing[i];
+    // A black picture does not change either, nor much a blurred one; nobody steps while standing.
+    const bool seen = evidence.errors == nullptr || evidence.errors_known[i];
+    const bool stepping = steps[i] && *steps[i] > 0;
+    const bool still = seen && !stepping && !evidence.standing.empty() && evidence.standing[i];
     if (track.displacement[i]) {
       frame = {*track.displacement[i], scale_error * *track.displacement[i], DisplacementSource::kTrack};
     } else if (still) {

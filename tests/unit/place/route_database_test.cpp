@@ -203,8 +203,9 @@ TEST(RouteDatabase, ReadsSchemaOne) {
   place::write_route(folder / "r.db", route);
   place::sqlite::Database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db")
       .run(
-          "ALTER TABLE traverse DROP COLUMN surveyed; DROP TABLE geographic_origin; PRAGMA user_version = "
-          "1;");
+          "ALTER TABLE traverse DROP COLUMN surveyed; ALTER TABLE route DROP COLUMN metric; "
+          "DROP TABLE geographic_origin; PRAGMA user_version = 1;");
+  route.sampling.metric = false;       // of this motion none was
   route.traverses[1].surveyed = true;  // all were
   route.origin.reset();
   expect_equal(place::read_route(folder / "r.db"), route);

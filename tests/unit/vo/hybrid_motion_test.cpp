@@ -85,9 +85,15 @@ TEST(HybridMotion, StandsWhereTheViewDoesNotChange) {
   vo::MotionEvidence evidence = walk.evidence();
   evidence.standing.assign(walk.frames(), false);
   for (std::size_t i = 320; i < 360; ++i) evidence.standing[i] = true;
+  for (std::size_t i = 370; i < 390; ++i) {
+    evidence.standing[i] = true;  // but nothing is seen: no view that changed or did not
+    evidence.errors_known[i] = false;
+  }
   const vo::HybridMotion motion = vo::hybrid_motion(evidence, unsmoothed());
   EXPECT_EQ(motion.frames[340].value, 0);
   EXPECT_GT(motion.frames[310].value, 0);
+  EXPECT_GT(motion.frames[380].value, 0);
+  EXPECT_EQ(motion.frames[380].source, DisplacementSource::kHeld);
 }
 
 TEST(HybridMotion, WithoutATrackIsSteps) {
