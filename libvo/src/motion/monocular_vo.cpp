@@ -204,17 +204,11 @@ class MonocularVo::Impl {
     const Pose3& keyframe = map_.keyframes[last].pose;
     segment_frames_.push_back({.frame = now(),
                                .before = AnchoredPose{last, compose(inverse(keyframe), pose_)},
-                               .sigma = sigma_of(found)});
+                               .sigma = displacement_sigma(found, pose_.rotation * motion.position)});
     if (cv::norm(pose_.position - keyframe.position) > options_.keyframe_travel * median_depth_ ||
         inliers < options_.keyframe_share * static_cast<double>(keyframe_landmarks_)) {
       make_keyframe();
     }
-  }
-
-  /// Both ends of a displacement are as uncertain as this one.
-  [[nodiscard]] double sigma_of(const Resection& found) const {
-    const cv::Vec3d along = pose_.rotation * cv::normalize(motion_.position);
-    return std::sqrt(std::max(0.0, 2 * along.dot(found.position_covariance * along)));
   }
 
   /// True if the camera hardly moved of late.
