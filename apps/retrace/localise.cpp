@@ -54,11 +54,9 @@ std::string matrix_csv(const place::CostMatrix& matrix) {
 ordered_json drift_summary(const QueryTrajectory& trajectory) {
   if (!trajectory.why_not.empty()) return {{"corrected", false}, {"reason", trajectory.why_not}};
   const place::CorrectedWalk& walk = trajectory.corrected;
-  // Half of its weight gone, a match is let go.
-  const auto believed = std::ranges::count_if(walk.fix_weight, [](double weight) { return weight >= 0.5; });
   return {{"corrected", true},
           {"matches_used", trajectory.fixes.size()},
-          {"matches_believed", believed},
+          {"matches_believed", matches_believed(trajectory)},
           {"step_scale", walk.step_scale.back()},
           {"turn_scale", walk.turn_scale.back()}};
 }

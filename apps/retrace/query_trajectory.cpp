@@ -92,6 +92,12 @@ bool has_poses(const place::Route& route) {
   });
 }
 
+std::size_t matches_believed(const QueryTrajectory& trajectory) {
+  constexpr double kHalf = 0.5;  // of its weight gone, a match is let go
+  return static_cast<std::size_t>(
+      std::ranges::count_if(trajectory.corrected.fix_weight, [](double weight) { return weight >= kHalf; }));
+}
+
 QueryTrajectory query_trajectory(const place::Route& route, const vo::Walk& walk,
                                  const place::SampledWalk& sampled, const std::vector<place::Match>& matches,
                                  const Settings& settings) {
@@ -119,6 +125,11 @@ QueryTrajectory query_trajectory(const place::Route& route, const std::vector<pl
   if (!t.fixes.empty()) t.corrected = place::correct_drift(odometry, t.fixes);
   if (t.corrected.status != place::DriftStatus::kCorrected) {
     t.why_not = "fewer than three accepted matches agree with the walk between them";
+    return t;
+  }
+  if (const std::size_t believed = matches_believed(t); 2 * believed < t.fixes.size()) {
+    t.why_not = fmt::format("only {} of {} accepted matches agree with the walk's steps and turns", believed,
+                            t.fixes.size());
     return t;
   }
   t.odometry = laid_at(t.corrected.poses.front().pose, odometry);

@@ -83,8 +83,9 @@ Sampled sample(const Walks& walks, Settings settings) {
   Sampled sampled{.query_frames = query.frames, .reference_frames = {}, .cost = {}};
   for (const place::Keyframe& keyframe : reference.keyframes)
     sampled.reference_frames.push_back(static_cast<std::size_t>(keyframe.frame));
-  sampled.cost = place::cost_matrix(vo::patch_normalise(query.thumbnails, route.patch),
-                                    vo::patch_normalise(reference.thumbnails, route.patch));
+  sampled.cost =
+      place::cost_matrix(vo::patch_normalise(query.thumbnails, route.patch),
+                         vo::patch_normalise(reference.thumbnails, route.patch), settings.localiser.cost);
   return sampled;
 }
 

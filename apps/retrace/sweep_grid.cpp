@@ -108,13 +108,15 @@ Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const 
   if (sampling.motion == vo::MotionSource::kFile)
     throw vo::Error("motion=file", "cannot be swept", "a motion that both walks show themselves");
   if (sampling.motion != vo::MotionSource::kNone) sampling.every = 1;
-  if (sampling.motion != vo::MotionSource::kSteps) sampling.spacing_m.reset();
+  const bool metric =
+      sampling.motion == vo::MotionSource::kSteps || sampling.motion == vo::MotionSource::kHybrid;
+  if (!metric) sampling.spacing_m.reset();
   resolve(app, settings);
   return settings;
 }
 
 bool shapes_the_matrix(const std::string& setting) {
-  return group_of(setting) != "Search";
+  return group_of(setting) != "Search" || setting == "max-shift-px";
 }
 
 std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results) {

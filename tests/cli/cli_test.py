@@ -150,17 +150,24 @@ class CliTest(unittest.TestCase):
         legs = [row["leg"] for row in steps]
         self.assertTrue(all(a != b for a, b in zip(legs, legs[1:])), legs)
         walked = sum(float(row["displacement"]) for row in frames)
-        self.assertAlmostEqual(walked, len(steps) * step_length, delta=0.01)
+        # Visual odometry tells each frame's way and steps tell metres, over ten seconds at a time: nearly the steps' sum.
+        self.assertAlmostEqual(walked, len(steps) * step_length, delta=0.03 * walked)
+        self.assertIn("vo", {row["source"] for row in frames})
+        check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "by_steps", "--step-length", step_length,
+              "--motion", "steps")
+        by_steps = rows(self.folder / "by_steps" / "frames.csv")
+        self.assertEqual({row["source"] for row in by_steps[1:]}, {"steps"})
+        self.assertAlmostEqual(sum(float(row["displacement"]) for row in by_steps), len(steps) * step_length, delta=0.01)
         activities = {row["activity"] for row in rows(out / "activity.csv")}
         self.assertIn("walking", activities)
         self.assertNotIn("running", activities)
         self.assertEqual(read_json(out / "summary.json")["steps"], len(steps))
 
-        # A step more or less at either end of so short a walk; 5 % of the way at its end.
+        # A step more or less at either end of so short a walk; two of twenty make every metre a tenth too long.
         check("evaluate-odometry", out, "--truth", self.folder / "walk" / "truth.csv")
         metrics = read_json(out / "odometry_metrics.json")
         self.assertLessEqual(abs(metrics["steps_estimated"] - metrics["steps_true"]), 2)
-        self.assertLess(metrics["euclidean_error_m"]["10"], 0.75)
+        self.assertLess(metrics["euclidean_error_m"]["10"], 1.05)
 
         # The same walk measures the step length, and is the same for one thread.
         check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "calibrated", "--walk-length-m", "15", "--threads", "1")

@@ -11,6 +11,7 @@ import os
 import pathlib
 import random
 import shutil
+import statistics
 import sys
 import tempfile
 import unittest
@@ -159,6 +160,25 @@ class AccuracyTest(unittest.TestCase):
         print(f"\n  the same place by two walks' odometry: {consistency_m:.2f} m apart (rms of {len(squares)})", end=" ", flush=True)
         self.assertGreater(len(squares), 100)
         self.assertLessEqual(consistency_m, 1)
+
+    # ---- hybrid motion ----
+
+    def spacing_variation(self, name, motion):
+        """Deviation over mean of the true metres between keyframes."""
+        route = self.folder / f"{name}-{motion}.db"
+        check("build", SIM / f"{name}.mp4", "-o", route, "--motion", motion)
+        at_m = [float(row["distance_m"]) for row in rows(SIM / f"{name}.csv")]
+        frames = json.loads(check("inspect", route, "--json"))["traverses"][0]["keyframe"]
+        spacing_m = [at_m[b["frame"]] - at_m[a["frame"]] for a, b in zip(frames, frames[1:])]
+        variation = statistics.pstdev(spacing_m) / statistics.mean(spacing_m)
+        print(f"\n  {name} by {motion}: {len(frames)} keyframes, variation of their spacing {variation:.3f}", end=" ", flush=True)
+        return variation
+
+    def test_hybrid_keyframes_are_evenly_spaced(self):
+        for name in ("street_day", "corridor_a"):
+            by_hybrid = self.spacing_variation(name, "hybrid")
+            self.assertLessEqual(by_hybrid, 0.15)
+            self.assertLess(by_hybrid, self.spacing_variation(name, "sad"))
 
     # ---- pedestrian odometry ----
 

@@ -171,7 +171,7 @@ function configuration(spec, context) {
           labels: {color: themeColour('ink'), usePointStyle: true, pointStyleWidth: 34, padding: 14,
             filter: item => !(spec.series[item.datasetIndex] || {}).label_at_end,
             generateLabels: chart => Chart.defaults.plugins.legend.labels.generateLabels(chart).map((label, i) =>
-              (spec.series[i] ? {...label, pointStyle: legendGlyph(spec.series[i])} : label))}
+              (spec.series[i] ? {...label, pointStyle: legendGlyph(spec.series[i]), rotation: 0} : label))}
         },
         tooltip: {filter: item => Boolean(spec.series[item.datasetIndex]), callbacks: {title: () => '', label: item => tooltipLine(spec, item)}}
       }

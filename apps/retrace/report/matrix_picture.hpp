@@ -18,6 +18,6 @@ std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
                                          std::size_t cell = 1);
 
 /// A PNG of a cost matrix alone, a pixel for a cell, the same way round; large ones shrunk likewise.
-std::vector<std::uint8_t> cost_picture(const place::CostMatrix& costs, int side_px = 1000);
+std::vector<std::uint8_t> cost_picture(const place::CostMatrix& costs, int side_px = 1024);
 
 }  // namespace retrace

@@ -44,9 +44,12 @@ FrameRange overlap(FrameRange a, FrameRange b) {
 bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& options, FrameRange run,
                     const Displacements& track, Displacements& scaled) {
   constexpr double kLeast_m = 1;  // of steps, to tell a scale by
+  // A step that was not found, like the first of a walk, has no length to compare.
+  std::vector<bool> stepping(evidence.steps_known);
+  for (std::size_t i = run.begin; i < run.end; ++i) stepping[i] = stepping[i] && evidence.steps_m[i] > 0;
   const auto ratio = [&](FrameRange range) -> std::optional<double> {
-    const double walked_m = sum(evidence.steps_m, range, evidence.steps_known);
-    const double passed = sum(track, range, evidence.steps_known);
+    const double walked_m = sum(evidence.steps_m, range, stepping);
+    const double passed = sum(track, range, stepping);
     if (walked_m < kLeast_m || !(passed > 0)) return std::nullopt;
     return walked_m / passed;
   };

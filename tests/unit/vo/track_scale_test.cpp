@@ -78,8 +78,21 @@ TEST(TieTrackScale, BringsSegmentsToMetresBySteps) {
   for (std::size_t i = 1; i < walk.frames(); ++i) {
     const bool lost = (i >= 300 && i < 350) || (i >= 600 && i < 640);
     ASSERT_EQ(tied.displacement[i].has_value(), !lost) << i;
-    if (!lost) EXPECT_NEAR(*tied.displacement[i], walk.metres[i], 1e-6) << i;  // floats' rounding
+    if (lost) continue;
+    EXPECT_NEAR(*tied.displacement[i], walk.metres[i], 1e-6) << i;  // floats' rounding
   }
+}
+
+TEST(TieTrackScale, IsNotMisledByStepsThatWereNotFound) {
+  KnownMotion walk = known_motion(40, 1, 1.8);
+  vo::MotionEvidence evidence = walk.evidence();
+  evidence.steps_m = walk.metres;
+  evidence.steps_known.assign(walk.frames(), true);
+  for (std::size_t i = 0; i < 40; ++i) evidence.steps_m[i] = 0;     // before the first step found
+  for (std::size_t i = 400; i < 430; ++i) evidence.steps_m[i] = 0;  // two in the middle
+  const vo::ScaledTrack tied = vo::tie_track_scale(evidence, unsmoothed());
+  for (std::size_t i = 1; i < walk.frames(); ++i)
+    EXPECT_NEAR(*tied.displacement[i], walk.metres[i], 1e-9) << i;  // rounding
 }
 
 TEST(TieTrackScale, FollowsAScaleThatDrifts) {
