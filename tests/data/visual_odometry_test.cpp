@@ -108,6 +108,6 @@ TEST_P(VisualOdometryOnWalks, HoldsItsScale) {
 INSTANTIATE_TEST_SUITE_P(Sim, VisualOdometryOnWalks,
                          testing::Values("street_day", "street_night", "corridor_a", "corridor_b", "run",
                                          "stand_walk"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& walk) { return std::string(walk.param); });
 
 }  // namespace
