@@ -226,13 +226,13 @@ class ReportsTest(unittest.TestCase):
     def test_odometry(self):
         walk = self.folder / "odometry"
         check("odometry", self.walks.day, "-o", walk)
-        self.open(walk / "report.html", charts=5)
+        self.open(walk / "report.html", charts=6)
         chart = self.all("figure.chart")[1]
         self.zooms(chart, chart.find_element(By.TAG_NAME, "canvas"))
         self.reads_points_by_keys(chart)
 
         check("evaluate-odometry", walk, "--truth", self.folder / "day/truth.csv")
-        self.open(walk / "report.html", charts=7)
+        self.open(walk / "report.html", charts=8)
         self.assertIn("True steps", self.script("return document.querySelector('dl.headline').textContent"))
 
     def test_odometry_over_a_map(self):
