@@ -84,7 +84,9 @@ void add_sampling_options(CLI::App& app, Settings& s) {
       ->check(CLI::NonNegativeNumber);
   add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
       ->check(CLI::Range(1, 1000000));
-  add(app, kSampling, "--sampling-n", s.sampling.sampling.n, "n of SSS Eq. 4, larger for fewer keyframes")
+  add(app, kSampling, "--sampling-n", s.sampling.sampling.n,
+      "n of SSS Eq. 4, larger for fewer keyframes; motion in metres has 0.7 m between them if this is not "
+      "given")
       ->check(CLI::Range(0.01, 1000.0));
   add(app, kSampling, "--spacing-m", s.sampling.sampling.spacing_m,
       "metres between keyframes, instead of SSS Eq. 4; with motion in metres (hybrid, steps)")
@@ -294,6 +296,7 @@ void resolve(const CLI::App& app, Settings& settings) {
     throw vo::Error("--every", fmt::format("has no meaning with --motion {}", name_of(sampling.motion)),
                     "--motion none --every K");
   }
+  if (given(app, "--sampling-n")) settings.sampling.sampling.usual_spacing_m = 0;
   const bool may_be_metric = sampling.motion == vo::MotionSource::kSteps ||
                              sampling.motion == vo::MotionSource::kHybrid ||
                              sampling.motion == vo::MotionSource::kFile;

@@ -188,8 +188,10 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
     sampled.motion_model = std::move(motion.visual->model);
     sampled.warnings = motion_warnings(walk, sampled.motion_model);
   }
-  const double eq4 = sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
-  sampled.unit = sampling.spacing_m.value_or(sampling.unit > 0 ? sampling.unit : eq4);
+  const double usual = motion.metric && sampling.usual_spacing_m > 0
+                           ? sampling.usual_spacing_m
+                           : sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
+  sampled.unit = sampling.spacing_m.value_or(sampling.unit > 0 ? sampling.unit : usual);
   sampled.frames = resample(sampled.displacement, sampled.unit);
   sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
   if (reference == nullptr || !options.tie_scale) return sampled;

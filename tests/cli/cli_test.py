@@ -174,6 +174,38 @@ class CliTest(unittest.TestCase):
         self.assertAlmostEqual(read_json(self.folder / "calibrated" / "summary.json")["step_length_m"], 15 / len(steps), places=6)
         self.assertEqual([row["time_s"] for row in rows(self.folder / "calibrated" / "steps.csv")], [row["time_s"] for row in steps])
 
+    def test_visual_odometry_frame_by_frame_and_kittis_errors(self):
+        check("simulate", "--scene", "corridor", "--length-m", "12", "--seed", "2", "-o", self.folder / "walk")
+        walk, out, truth = self.folder / "walk" / "walk.mp4", self.folder / "out", rows(self.folder / "walk" / "truth.csv")
+        check("odometry", walk, "-o", out, "--visual-odometry")
+        frames = rows(out / "visual_odometry.csv")
+        self.assertEqual(list(frames[0]), ["frame", "time_s", "valid", "displacement", "sigma", "turn_deg", "segment", "loss"])
+        self.assertEqual(len(frames), len(truth))
+        for row in frames:
+            self.assertEqual(row["displacement"] == "", row["valid"] == "0", row)
+            self.assertEqual(row["loss"] == "none", row["valid"] == "1", row)
+        poses = [line for line in (out / "visual_odometry.tum").read_text().splitlines() if line[0] != "#"]
+        self.assertLessEqual(len(poses), len(frames))
+
+        # The truth as KITTI writes it: right, down, ahead.
+        lines = []
+        for row in truth:
+            heading = math.radians(float(row["heading_deg"]))
+            c, s = math.cos(heading), math.sin(heading)
+            lines.append(f"{c} 0 {s} {row['x_m']} 0 1 0 0 {-s} 0 {c} {row['y_m']}\n")
+        kitti = self.folder / "kitti.txt"
+        kitti.write_text("".join(lines))
+        check("evaluate-odometry", out, "--kitti-poses", kitti)
+        metrics = read_json(out / "kitti_metrics.json")
+        self.assertEqual(metrics["frames"], len(frames))
+        self.assertEqual(metrics["all"]["stretches"], 0)  # the shortest that KITTI measures is 100 m
+        self.assertGreater(metrics["metres_per_unit"], 0)
+        kitti.write_text("".join(lines[:-1]))
+        self.refused("evaluate-odometry", out, "--kitti-poses", kitti, says="one for each frame of the walk")
+        self.refused("evaluate-odometry", out, "--kitti-poses", kitti, "--truth", kitti, says="--kitti-poses", code=2)
+        (out / "visual_odometry.csv").unlink()
+        self.refused("evaluate-odometry", out, "--kitti-poses", kitti, says="visual_odometry.csv: does not exist")
+
     def test_corrects_drift_on_a_route_with_a_gps_track(self):
         check("simulate", "--scene", "corridor", "--length-m", "25", "--seed", "2", "-o", self.folder / "walk")
         video_file, truth = self.folder / "walk" / "walk.mp4", rows(self.folder / "walk" / "truth.csv")

@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <vo/base/error.hpp>
+#include <vo/base/frame_range.hpp>
 #include <vo/io/csv.hpp>
 #include <vo/io/trajectory_io.hpp>
 
@@ -80,6 +81,18 @@ Series step_series(const OdometryView& walk, const std::string& leg, bool bridge
     series.notes.push_back(fmt::format("step {}", i + 1));
   }
   return series;
+}
+
+/// Speed from the way since the frame before, over the half second about each frame.
+std::vector<double> over_half_a_second(const std::vector<double>& moved, const std::vector<double>& time_s) {
+  std::vector<double> way(moved.size() + 1, 0), speed;
+  for (std::size_t i = 0; i < moved.size(); ++i) way[i + 1] = way[i] + moved[i];
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const vo::FrameRange near = vo::frames_around(time_s, {i, i + 1}, 0.25);
+    const double seconds = time_s[near.end - 1] - time_s[near.begin];
+    speed.push_back(seconds > 0 ? (way[near.end] - way[near.begin + 1]) / seconds : NAN);
+  }
+  return speed;
 }
 
 /// Headings without jumps by whole turns.
@@ -187,11 +200,13 @@ OdometryView read_odometry(const fs::path& folder) {
   if (fs::exists(folder / "frames.csv")) {
     const vo::CsvTable table = vo::CsvTable::read(folder / "frames.csv");
     walk.frames = {.time_s = table.numbers("time_s"),
+                   .displacement = table.numbers("displacement"),
                    .orientation_deg = or_nan(table.optional_numbers("orientation_deg")),
                    .matches = table.numbers("matches"),
                    .heading_deg = table.numbers("heading_deg"),
                    .signal = table.numbers("step_signal"),
                    .threshold = table.numbers("step_threshold"),
+                   .source = table.text("source"),
                    .reliable = table.indices("reliable")};
   }
   if (fs::exists(folder / "steps.csv")) {
@@ -292,6 +307,44 @@ std::optional<Chart> heading_chart(const OdometryView& walk) {
     Series truth{.name = "truth", .y = unwrapped_deg(walk.truth->poses), .colour = "green", .dash = {7, 5}};
     for (const vo::TimedPose& pose : walk.truth->poses) truth.x.push_back(pose.time_s);
     chart.series.push_back(std::move(truth));
+  }
+  return chart;
+}
+
+std::optional<Chart> speed_chart(const OdometryView& walk) {
+  const auto& frames = walk.frames;
+  if (frames.time_s.size() < 2) return {};
+  Chart chart{.title = "speed",
+              .x_title = "time, s",
+              .y_title = "speed, m/s",
+              .series = {{.name = "odometry",
+                          .x = frames.time_s,
+                          .y = over_half_a_second(frames.displacement, frames.time_s),
+                          .colour = "orange"}},
+              .zoomable = true,
+              .size = "wide"};
+  if (walk.truth != nullptr && walk.truth->poses.size() > 1) {
+    std::vector<double> moved{0}, time_s{walk.truth->poses.front().time_s};
+    for (std::size_t i = 1; i < walk.truth->poses.size(); ++i) {
+      const vo::TimedPose &from = walk.truth->poses[i - 1], &to = walk.truth->poses[i];
+      moved.push_back(std::hypot(to.pose.x_m - from.pose.x_m, to.pose.y_m - from.pose.y_m));
+      time_s.push_back(to.time_s);
+    }
+    chart.series.push_back({.name = "truth",
+                            .x = time_s,
+                            .y = over_half_a_second(moved, time_s),
+                            .colour = "green",
+                            .dash = {7, 5}});
+  }
+  static const std::map<std::string, std::pair<std::string, std::string>> kShaded{
+      {"steps", {"by steps", "ochre"}},
+      {"sad", {"by alignment error", "purple"}},
+      {"held", {"held", "grey"}}};
+  if (std::ranges::find(frames.source, "vo") == frames.source.end()) return chart;  // all of it is by steps
+  for (const auto& [source, shown] : kShaded) {
+    auto shaded = spans(frames.time_s, [&](std::size_t i) { return frames.source[i] == source; });
+    if (!shaded.empty())
+      chart.bands.push_back({.name = shown.first, .colour = shown.second, .spans = std::move(shaded)});
   }
   return chart;
 }

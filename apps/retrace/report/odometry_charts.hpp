@@ -13,7 +13,8 @@ namespace retrace {
 /// The frames, steps and activities of a walk, as they lie in its folder.
 struct OdometryView {
   struct Frames {
-    std::vector<double> time_s, orientation_deg, matches, heading_deg, signal, threshold;
+    std::vector<double> time_s, displacement, orientation_deg, matches, heading_deg, signal, threshold;
+    std::vector<std::string> source;
     std::vector<std::int64_t> reliable;
   } frames;  ///< by frame; empty without frames.csv, and NaN where there is no value
   struct Steps {
@@ -38,6 +39,8 @@ OdometryView read_odometry(const std::filesystem::path& folder);
 std::optional<Chart> gait_chart(const OdometryView& walk);
 std::optional<Chart> activity_chart(const OdometryView& walk);
 std::optional<Chart> heading_chart(const OdometryView& walk);
+/// Speed, with what it comes from where visual odometry is lost shaded; with the truth's (SSS Fig. 9).
+std::optional<Chart> speed_chart(const OdometryView& walk);
 /// Matches of each frame, where too few shaded.
 std::optional<Chart> matches_chart(const OdometryView& walk);
 /// The trajectory, laid on the truth where there is one.

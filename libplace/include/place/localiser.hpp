@@ -43,8 +43,9 @@ struct SampledWalk {
 };
 
 /// Samples a walk (SSS 3.3). With motion, the unit comes from `options.sampling.unit`, or where that is 0
-/// from this walk by Eq. 4. `reference`: the route's first traverse, to tie the scale to; null for the first
-/// walk itself. Throws `vo::Error` naming the walk if it shows no motion to learn from.
+/// from this walk by Eq. 4, or in metres `usual_spacing_m`. `reference`: the route's first traverse, to tie
+/// the scale to; null for the first walk itself. Throws `vo::Error` naming the walk if it shows no motion to
+/// learn from.
 SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
                         const WalkSamplingOptions& options);
 

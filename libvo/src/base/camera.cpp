@@ -64,4 +64,19 @@ std::vector<ImagePoint> undistort(const Camera& camera, const std::vector<ImageP
   return points;
 }
 
+ImagePoint with_radial(const ImagePoint& at, double radial) {
+  const double stretch = 1 + radial * (at.x * at.x + at.y * at.y);
+  return {stretch * at.x, stretch * at.y};
+}
+
+ImagePoint without_radial(const ImagePoint& seen, double radial) {
+  constexpr int kRounds = 6;  // each leaves a share of about 2 radial r^2 of the error
+  ImagePoint at = seen;
+  for (int i = 0; i < kRounds; ++i) {
+    const double stretch = 1 + radial * (at.x * at.x + at.y * at.y);
+    at = {seen.x / stretch, seen.y / stretch};
+  }
+  return at;
+}
+
 }  // namespace vo

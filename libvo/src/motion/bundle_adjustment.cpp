@@ -52,7 +52,7 @@ class PoseManifold final : public ceres::Manifold {
 
 constexpr double kLeastDepth = 1e-6;
 
-class Reprojection final : public ceres::SizedCostFunction<2, PoseManifold::kAmbient, 3> {
+class Reprojection final : public ceres::SizedCostFunction<2, PoseManifold::kAmbient, 3, 1> {
  public:
   Reprojection(const ImagePoint& at, double noise) : at_(at), scale_(1 / noise) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
@@ -62,12 +62,16 @@ class Reprojection final : public ceres::SizedCostFunction<2, PoseManifold::kAmb
     const Eigen::Vector3d p = camera_from_world * (point - position);
     if (p.z() < kLeastDepth) return false;  // the step is taken back
     const double x = p.x() / p.z(), y = p.y() / p.z();
-    residuals[0] = (x - at_.x) * scale_;
-    residuals[1] = (y - at_.y) * scale_;
+    const double radial = parameters[2][0], r2 = x * x + y * y, stretch = 1 + radial * r2;
+    residuals[0] = (stretch * x - at_.x) * scale_;
+    residuals[1] = (stretch * y - at_.y) * scale_;
     if (jacobians == nullptr) return true;
     Eigen::Matrix<double, 2, 3> by_p;
     by_p << 1, 0, -x, 0, 1, -y;
-    by_p *= scale_ / p.z();
+    Eigen::Matrix2d by_plane;
+    by_plane << stretch + 2 * radial * x * x, 2 * radial * x * y, 2 * radial * x * y,
+        stretch + 2 * radial * y * y;
+    by_p = by_plane * by_p * (scale_ / p.z());
     const Eigen::Matrix<double, 2, 3> by_point = by_p * camera_from_world;
     if (jacobians[0] != nullptr) {
       Eigen::Map<Eigen::Matrix<double, 2, PoseManifold::kAmbient, Eigen::RowMajor>> j(jacobians[0]);
@@ -82,12 +86,30 @@ class Reprojection final : public ceres::SizedCostFunction<2, PoseManifold::kAmb
       Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>> j(jacobians[1]);
       j = by_point;
     }
+    if (jacobians[2] != nullptr) {
+      jacobians[2][0] = r2 * x * scale_;
+      jacobians[2][1] = r2 * y * scale_;
+    }
     return true;
   }
 
  private:
   ImagePoint at_;
   double scale_;
+};
+
+/// What is known of the radial distortion beforehand.
+class RadialPrior final : public ceres::SizedCostFunction<1, 1> {
+ public:
+  RadialPrior(double mean, double sigma) : mean_(mean), sigma_(sigma) {}
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    residuals[0] = (parameters[0][0] - mean_) / sigma_;
+    if (jacobians != nullptr && jacobians[0] != nullptr) jacobians[0][0] = 1 / sigma_;
+    return true;
+  }
+
+ private:
+  double mean_, sigma_;
 };
 
 using PoseBlock = std::array<double, PoseManifold::kAmbient>;
@@ -130,6 +152,7 @@ bool adjust(Bundle& bundle, const BundleOptions& options) {
   std::vector<PoseBlock> poses;
   for (const Pose3& pose : bundle.poses) poses.push_back(block_of(pose));
   std::vector<cv::Vec3d> points = bundle.points;
+  double radial = bundle.radial;
 
   PoseManifold manifold;
   ceres::CauchyLoss loss(2);
@@ -139,6 +162,7 @@ bool adjust(Bundle& bundle, const BundleOptions& options) {
   owned_by_us.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   owned_by_us.disable_all_safety_checks = true;
   std::deque<Reprojection> costs;  // before the problem that points to them
+  RadialPrior prior(options.radial_mean, options.radial_sigma);
   ceres::Problem problem(owned_by_us);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   std::vector<bool> pose_used(poses.size()), point_used(points.size());
@@ -149,7 +173,7 @@ bool adjust(Bundle& bundle, const BundleOptions& options) {
     costs.emplace_back(observation.at, options.noise);
     double* const pose = poses[observation.pose].data();
     double* const point = points[observation.point].val;
-    problem.AddResidualBlock(&costs.back(), &loss, pose, point);
+    problem.AddResidualBlock(&costs.back(), &loss, pose, point, &radial);
     if (!pose_used[observation.pose]) {
       problem.SetManifold(pose, &manifold);
       if (fixed_pose) problem.SetParameterBlockConstant(pose);
@@ -163,6 +187,11 @@ bool adjust(Bundle& bundle, const BundleOptions& options) {
     }
   }
   if (costs.empty()) return true;
+  ordering->AddElementToGroup(&radial, 1);
+  if (options.radial_sigma > 0)
+    problem.AddResidualBlock(&prior, nullptr, &radial);
+  else
+    problem.SetParameterBlockConstant(&radial);
 
   ceres::Solver::Options solver;
   solver.max_num_iterations = options.max_iterations;
@@ -180,6 +209,7 @@ bool adjust(Bundle& bundle, const BundleOptions& options) {
     if (pose_used[i]) bundle.poses[i] = pose_of(poses[i]);
   }
   bundle.points = points;
+  bundle.radial = radial;
   return true;
 }
 
@@ -189,9 +219,12 @@ std::vector<double> reprojection_errors(const Bundle& bundle) {
   for (const BundleObservation& observation : bundle.observations) {
     const Pose3& pose = bundle.poses.at(observation.pose);
     const cv::Vec3d p = pose.rotation.t() * (bundle.points.at(observation.point) - pose.position);
-    errors.push_back(p[2] > kLeastDepth
-                         ? std::hypot(p[0] / p[2] - observation.at.x, p[1] / p[2] - observation.at.y)
-                         : std::numeric_limits<double>::infinity());
+    if (p[2] <= kLeastDepth) {
+      errors.push_back(std::numeric_limits<double>::infinity());
+      continue;
+    }
+    const ImagePoint at = with_radial({p[0] / p[2], p[1] / p[2]}, bundle.radial);
+    errors.push_back(std::hypot(at.x - observation.at.x, at.y - observation.at.y));
   }
   return errors;
 }

@@ -37,6 +37,18 @@ std::optional<cv::Vec3d> placed(const LandmarkMap& map, const Landmark& landmark
   return point;
 }
 
+/// Takes another radial distortion out of all image points.
+void set_radial(LandmarkMap& map, double radial) {
+  const auto changed = [&](const ImagePoint& at) {
+    return without_radial(with_radial(at, map.radial), radial);
+  };
+  for (Landmark& landmark : map.landmarks) {
+    landmark.at = changed(landmark.at);
+    for (Landmark::Sighting& sighting : landmark.sightings) sighting.at = changed(sighting.at);
+  }
+  map.radial = radial;
+}
+
 }  // namespace
 
 void add_keyframe(LandmarkMap& map, const Keyframe& keyframe) {
@@ -72,13 +84,21 @@ void adjust_window(LandmarkMap& map, const LandmarkMapOptions& options) {
         bundle.poses.push_back(map.keyframes[sighting.keyframe].pose);
         bundle.pose_fixed.push_back(sighting.keyframe < begin || sighting.keyframe == 0);
       }
-      bundle.observations.push_back({pose->second, landmarks.size(), sighting.at});
+      bundle.observations.push_back({pose->second, landmarks.size(), with_radial(sighting.at, map.radial)});
       sources.push_back({landmarks.size(), i});
     }
     bundle.points.push_back(*landmark.position);
     landmarks.push_back(&landmark);
   }
-  if (landmarks.empty() || !adjust(bundle, {.noise = options.noise})) return;
+  bundle.radial = map.radial;
+  BundleOptions adjustment{.noise = options.noise};
+  if (begin > 0 && options.radial_step > 0) {  // the first keyframes alone cannot tell it
+    const double calibration = 1 / (options.radial_sigma * options.radial_sigma);
+    const double step = 1 / (options.radial_step * options.radial_step);
+    adjustment.radial_mean = map.radial * step / (step + calibration);
+    adjustment.radial_sigma = 1 / std::sqrt(step + calibration);
+  }
+  if (landmarks.empty() || !adjust(bundle, adjustment)) return;
   for (const auto& [keyframe, pose] : pose_of_keyframe) map.keyframes[keyframe].pose = bundle.poses[pose];
   for (std::size_t i = 0; i < landmarks.size(); ++i) landmarks[i]->position = bundle.points[i];
 
@@ -90,6 +110,7 @@ void adjust_window(LandmarkMap& map, const LandmarkMapOptions& options) {
     if (sighting->keyframe + 1 == map.keyframes.size()) landmark.followed = false;  // drifted off
     landmark.sightings.erase(sighting);
   }
+  if (bundle.radial != map.radial) set_radial(map, bundle.radial);
   for (Landmark* landmark : landmarks) {
     if (landmark->sightings.size() >= 2) continue;
     landmark->position.reset();

@@ -5,6 +5,17 @@
 #include <algorithm>
 
 namespace vo {
+namespace {
+
+/// Where pixels lie on the image plane, without the distortion that the map has learned.
+std::vector<ImagePoint> on_plane(const LandmarkMap& map, const Camera& camera,
+                                 const std::vector<ImagePoint>& pixels) {
+  std::vector<ImagePoint> points = undistort(camera, pixels);
+  for (ImagePoint& point : points) point = without_radial(point, map.radial);
+  return points;
+}
+
+}  // namespace
 
 void add_corners(LandmarkMap& map, const cv::Mat& grey, const Camera& camera,
                  const CornerGridOptions& options) {
@@ -15,7 +26,7 @@ void add_corners(LandmarkMap& map, const cv::Mat& grey, const Camera& camera,
   const std::vector<cv::Point2f> corners = grid_corners(grey, existing, options);
   std::vector<ImagePoint> pixels;
   for (const cv::Point2f& corner : corners) pixels.push_back({corner.x, corner.y});
-  const std::vector<ImagePoint> at = undistort(camera, pixels);
+  const std::vector<ImagePoint> at = on_plane(map, camera, pixels);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     Landmark landmark{.pixel = corners[i], .at = at[i]};
     landmark.sightings.push_back({map.keyframes.size() - 1, at[i]});
@@ -44,7 +55,7 @@ void follow_landmarks(LandmarkMap& map, const KltPyramid& before, const KltPyram
   const auto found = follow(before, after, from, guess, options);
   std::vector<ImagePoint> pixels;
   for (const auto& at : found) pixels.push_back(at ? ImagePoint{at->x, at->y} : ImagePoint{});
-  const std::vector<ImagePoint> at = undistort(camera, pixels);
+  const std::vector<ImagePoint> at = on_plane(map, camera, pixels);
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     Landmark& landmark = *landmarks[i];
     landmark.followed = found[i].has_value();

@@ -46,7 +46,9 @@ class MonocularVo::Impl {
       camera_ = resized(camera, std::min(size_.width, options_.width_px));
       map_options_ = {.noise = options_.noise_px / camera_->fx_px,
                       .min_parallax_rad = options_.min_parallax_deg * kRadPerDeg,
-                      .window = options_.window};
+                      .window = options_.window,
+                      .radial_sigma = options_.radial_sigma,
+                      .radial_step = options_.radial_step};
     }
     const bool first = time_s_.empty();
     if (image.size() != size_) throw std::invalid_argument("MonocularVo: frames of one size expected");
@@ -91,7 +93,7 @@ class MonocularVo::Impl {
 
   /// Begins a scene with this frame.
   void start() {
-    map_ = {};
+    map_ = {.keyframes = {}, .landmarks = {}, .radial = map_.radial};  // that belongs to the camera
     waiting_.clear();
     map_.keyframes.push_back({now(), {}});
     add_corners(map_, grey_, *camera_, options_.corners);
@@ -202,17 +204,11 @@ class MonocularVo::Impl {
     const Pose3& keyframe = map_.keyframes[last].pose;
     segment_frames_.push_back({.frame = now(),
                                .before = AnchoredPose{last, compose(inverse(keyframe), pose_)},
-                               .sigma = sigma_of(found)});
+                               .sigma = displacement_sigma(found, pose_.rotation * motion.position)});
     if (cv::norm(pose_.position - keyframe.position) > options_.keyframe_travel * median_depth_ ||
         inliers < options_.keyframe_share * static_cast<double>(keyframe_landmarks_)) {
       make_keyframe();
     }
-  }
-
-  /// Both ends of a displacement are as uncertain as this one.
-  [[nodiscard]] double sigma_of(const Resection& found) const {
-    const cv::Vec3d along = pose_.rotation * cv::normalize(motion_.position);
-    return std::sqrt(std::max(0.0, 2 * along.dot(found.position_covariance * along)));
   }
 
   /// True if the camera hardly moved of late.
@@ -300,6 +296,8 @@ bool MonocularVoOptions::is_valid(std::string* error) const {
   if (window < 2) return refuse("window", window, "at least 2");
   if (min_points < 8) return refuse("min_points", min_points, "at least 8");
   if (min_landmarks < 4) return refuse("min_landmarks", min_landmarks, "at least 4");
+  if (!(radial_sigma > 0)) return refuse("radial_sigma", radial_sigma, "> 0");
+  if (!(radial_step >= 0)) return refuse("radial_step", radial_step, ">= 0");
   if (!(max_gap_s > 0)) return refuse("max_gap_s", max_gap_s, "> 0");
   return true;
 }

@@ -103,4 +103,9 @@ Resection resection(std::span<const cv::Vec3d> points, std::span<const ImagePoin
   return best;
 }
 
+double displacement_sigma(const Resection& found, const cv::Vec3d& along) {
+  const cv::Vec3d direction = cv::normalize(along);  // (0, 0, 0) stays so
+  return std::sqrt(std::max(0.0, 2 * direction.dot(found.position_covariance * direction)));
+}
+
 }  // namespace vo

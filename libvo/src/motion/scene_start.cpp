@@ -11,9 +11,9 @@
 namespace vo {
 namespace {
 
-/// The pose of a waiting frame, none if it sees too few landmarks.
-std::optional<Pose3> pose_of(const WaitingFrame& frame, const LandmarkMap& map, const Pose3& start,
-                             const LandmarkMapOptions& map_options, const SceneStartOptions& options) {
+/// Where a waiting frame is, none if it sees too few landmarks.
+std::optional<Resection> found_by(const WaitingFrame& frame, const LandmarkMap& map, const Pose3& start,
+                                  const LandmarkMapOptions& map_options, const SceneStartOptions& options) {
   std::vector<cv::Vec3d> points;
   std::vector<ImagePoint> seen;
   for (const WaitingFrame::Seen& one : frame.seen) {
@@ -24,7 +24,7 @@ std::optional<Pose3> pose_of(const WaitingFrame& frame, const LandmarkMap& map, 
   }
   const Resection found = resection(points, seen, start, {.noise = map_options.noise, .seed = options.seed});
   if (found.inliers < options.min_seen) return std::nullopt;
-  return found.camera;
+  return found;
 }
 
 }  // namespace
@@ -73,14 +73,16 @@ std::vector<SegmentFrame> begin_scene(LandmarkMap& map, const std::vector<Waitin
   Pose3 pose;
   for (std::size_t i = 0; i + 1 < waiting.size(); ++i) {
     SegmentFrame frame{.frame = waiting[i].frame};
-    if (const auto found = pose_of(waiting[i], map, pose, map_options, options)) {
-      pose = *found;
+    if (const auto found = found_by(waiting[i], map, pose, map_options, options)) {
+      frame.sigma = displacement_sigma(*found, found->camera.position - pose.position);
+      pose = found->camera;
       frame.before = AnchoredPose{0, pose};
       frame.after = AnchoredPose{1, compose(last_from_first, pose)};
     }
     segment.push_back(frame);
   }
-  segment.push_back({.frame = last.frame, .before = AnchoredPose{1, {}}});
+  const double sigma = segment.back().sigma;  // the keyframe's was adjusted, and is hardly another
+  segment.push_back({.frame = last.frame, .before = AnchoredPose{1, {}}, .sigma = sigma});
   return segment;
 }
 

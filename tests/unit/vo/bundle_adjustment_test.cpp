@@ -74,6 +74,23 @@ TEST(BundleAdjustment, ErrorsAreDistancesOnTheImagePlane) {
   EXPECT_TRUE(std::isinf(errors[1]));
 }
 
+TEST(BundleAdjustment, LearnsTheRadialDistortionLeftOver) {
+  vo::Bundle bundle = scene();
+  for (vo::BundleObservation& observation : bundle.observations)
+    observation.at = vo::with_radial(observation.at, 0.03);
+  vo::Bundle fixed = bundle;
+  ASSERT_TRUE(vo::adjust(fixed, {.max_iterations = 50}));
+  EXPECT_EQ(fixed.radial, 0);
+  ASSERT_TRUE(vo::adjust(bundle, {.max_iterations = 50, .radial_sigma = 1}));
+  // What is known beforehand pulls by a thousandth; the rest is where the solver stops.
+  EXPECT_NEAR(bundle.radial, 0.03, 0.003);
+  const auto worst = [](const vo::Bundle& b) { return std::ranges::max(vo::reprojection_errors(b)); };
+  EXPECT_LT(worst(bundle), worst(fixed) / 5);
+  vo::Bundle known = scene();
+  ASSERT_TRUE(vo::adjust(known, {.max_iterations = 50, .radial_mean = 0.01, .radial_sigma = 1e-6}));
+  EXPECT_NEAR(known.radial, 0.01, 1e-5);  // what is known beforehand holds
+}
+
 TEST(BundleAdjustment, OfNothingIsNothing) {
   vo::Bundle bundle;
   EXPECT_TRUE(vo::adjust(bundle));

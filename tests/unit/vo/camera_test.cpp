@@ -107,4 +107,23 @@ TEST_F(CameraCalibration, SaysWhatIsMissing) {
       HasSubstr("3 distortion_coefficients"));
 }
 
+TEST(Camera, RadialDistortionComesAndGoes) {
+  const vo::ImagePoint seen = vo::with_radial({0.3, -0.4}, 0.2);  // r^2 = 0.25
+  EXPECT_NEAR(seen.x, 0.3 * 1.05, 1e-12);
+  EXPECT_NEAR(seen.y, -0.4 * 1.05, 1e-12);
+  for (const double radial : {-0.05, 0.0, 0.02, 0.1}) {
+    const vo::ImagePoint back = vo::without_radial(vo::with_radial({0.7, 0.5}, radial), radial);
+    EXPECT_NEAR(back.x, 0.7, 1e-5) << radial;  // a hundredth of a pixel at 1000 px focal length
+    EXPECT_NEAR(back.y, 0.5, 1e-5) << radial;
+  }
+}
+
+TEST(Camera, OfARecordingIsTheCalibratedOne) {
+  const vo::Camera calibrated = vo::camera_from_fov(640, 360, 80);
+  EXPECT_EQ(vo::camera_of_recording(calibrated, 640, 360, 60).fx_px, calibrated.fx_px);
+  EXPECT_EQ(vo::camera_of_recording(std::nullopt, 640, 360, 60).fx_px,
+            vo::camera_from_fov(640, 360, 60).fx_px);
+  EXPECT_THROW(vo::camera_of_recording(calibrated, 640, 480, 60), vo::Error);
+}
+
 }  // namespace

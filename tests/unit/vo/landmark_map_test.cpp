@@ -84,6 +84,30 @@ TEST(LandmarkMap, AdjustsTheWindowAndLeavesWhatIsBefore) {
   EXPECT_EQ(map.landmarks[4].sightings.size(), 7U);
 }
 
+TEST(LandmarkMap, TakesRadialDistortionOutOfAllPoints) {
+  constexpr double kRadial = 0.02;
+  const auto points = test_support::point_scene(80);
+  vo::LandmarkMap map = map_of(points, 3);
+  for (vo::Landmark& landmark : map.landmarks) {
+    for (auto& sighting : landmark.sightings) sighting.at = vo::with_radial(sighting.at, kRadial);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) map.landmarks[i].position = points[i];
+  vo::adjust_window(map, kOptions);
+  EXPECT_EQ(map.radial, 0);  // the first keyframes alone cannot tell it
+  for (int i = 3; i < 12; ++i) {
+    look(map, camera(i), points);
+    for (vo::Landmark& landmark : map.landmarks)
+      landmark.at = vo::without_radial(vo::with_radial(landmark.at, kRadial), map.radial);
+    vo::add_keyframe(map, {static_cast<std::size_t>(10 * i), camera(i)});
+    vo::adjust_window(map, kOptions);
+  }
+  EXPECT_NEAR(map.radial, kRadial, kRadial / 4);  // on its way there, by steps
+  const vo::ImagePoint at = *vo::project(camera(11), points[0]);
+  const vo::ImagePoint expected = vo::without_radial(vo::with_radial(at, kRadial), map.radial);
+  EXPECT_NEAR(map.landmarks[0].at.x, expected.x, 1e-9);
+  EXPECT_NEAR(map.landmarks[0].sightings.back().at.x, expected.x, 1e-9);
+}
+
 TEST(LandmarkMap, ForgetsWhatTheWindowDoesNotSee) {
   const auto points = test_support::point_scene(4);
   vo::LandmarkMap map = map_of(points, 2);

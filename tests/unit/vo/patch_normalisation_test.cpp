@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -164,11 +165,10 @@ TEST(PatchNormalise, RefusesSizesThatDoNotFit) {
 
 TEST(PatchContrast, IsTheMedianDeviationOfTheCells) {
   // Four cells of 2x2 each: flat, 0/10 (deviation 5), 0/20 (10), 0/40 (20); the upper of the middle two.
-  vo::ImageStack images{.width = 8,
-                        .height = 2,
-                        .pixels = {9, 9, 0, 10, 0, 20, 0, 40,  //
-                                   9, 9, 0, 10, 0, 20, 0, 40}};
-  images.pixels.resize(32, 3);  // and a flat image
+  const std::vector<std::uint8_t> row{9, 9, 0, 10, 0, 20, 0, 40};
+  vo::ImageStack images = vo::make_image_stack(8, 2, 2);  // the second stays flat
+  std::ranges::copy(row, images.pixels.begin());
+  std::ranges::copy(row, images.pixels.begin() + 8);
   EXPECT_THAT(vo::patch_contrast(images, 2), testing::ElementsAre(10, 0));
   EXPECT_THAT(vo::patch_contrast({.width = 8, .height = 8, .pixels = {}}, 8), testing::IsEmpty());
   EXPECT_THROW(vo::patch_contrast(images, 1), std::invalid_argument);

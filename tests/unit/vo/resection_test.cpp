@@ -61,6 +61,14 @@ TEST(Resection, CovarianceIsThatOfRepeatedTrials) {
   }
 }
 
+TEST(Resection, UncertaintyOfADisplacementIsThatOfBothEnds) {
+  vo::Resection found;
+  found.position_covariance = cv::Matx33d::diag({0.04, 0.09, 0.16});
+  EXPECT_NEAR(vo::displacement_sigma(found, {0, 0, 7}), std::sqrt(2) * 0.4, 1e-12);
+  EXPECT_NEAR(vo::displacement_sigma(found, {3, 4, 0}), std::sqrt(2 * (0.36 * 0.04 + 0.64 * 0.09)), 1e-12);
+  EXPECT_EQ(vo::displacement_sigma(found, {0, 0, 0}), 0);
+}
+
 TEST(Resection, OfTooFewPointsIsTheStart) {
   const auto points = point_scene(3);
   const auto result = vo::resection(points, seen_by({}, points), turned(0.3));

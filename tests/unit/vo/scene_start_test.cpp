@@ -57,6 +57,7 @@ TEST(SceneStart, BeginsWithTheMedianDepthAsUnit) {
   const double way = cv::norm(scene.map.keyframes[1].pose.position);
   for (std::size_t i = 1; i < 4; ++i) {
     ASSERT_TRUE(segment[i].before);
+    EXPECT_GT(segment[i].sigma, 0);
     EXPECT_NEAR(cv::norm(segment[i].before->in_keyframe.position) / way, 0.25 * static_cast<double>(i), 0.03);
   }
 }

@@ -68,7 +68,7 @@ TEST(TwoViewGeometry, TakesTheHomographyForAWall) {
   const vo::Pose3 then = turned(0.03, {0.8, 0.1, 0.2});
   const auto result =
       vo::two_view_geometry(seen_by({}, wall, kNoise, 3), seen_by(then, wall, kNoise, 4), {.noise = kNoise});
-  if (!result) GTEST_SKIP() << "two planes explain the views alike";
+  ASSERT_TRUE(result);
   EXPECT_TRUE(result->planar);
 }
 

@@ -36,4 +36,10 @@ struct ImagePoint {
 /// Where pixels lie on the image plane. O(points).
 std::vector<ImagePoint> undistort(const Camera& camera, const std::vector<ImagePoint>& pixels);
 
+/// Where a point of the image plane is seen through a lens of radial distortion: at (1 + radial r^2) of it.
+ImagePoint with_radial(const ImagePoint& at, double radial);
+
+/// Where a point that is seen so would be without; for |radial| r^2 up to a tenth.
+ImagePoint without_radial(const ImagePoint& seen, double radial);
+
 }  // namespace vo

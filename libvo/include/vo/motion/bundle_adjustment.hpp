@@ -22,12 +22,17 @@ struct Bundle {
   std::vector<BundleObservation> observations;
   std::vector<bool> pose_fixed;   ///< one for each pose, or empty: none
   std::vector<bool> point_fixed;  ///< one for each point, or empty: none
+  /// Radial distortion that the observations still have: (x, y) is seen at (1 + radial r^2) (x, y); see
+  /// `with_radial`.
+  double radial = 0;
 };
 
 /// Settings of `adjust`.
 struct BundleOptions {
   double noise = 1e-3;  ///< standard deviation of an observation, on the image plane
   int max_iterations = 10;
+  double radial_mean = 0;   ///< what is known of the radial distortion beforehand
+  double radial_sigma = 0;  ///< its standard deviation; 0: it stays as it is
 };
 
 /// Moves cameras and points to where they explain the observations best: least squares of the reprojection

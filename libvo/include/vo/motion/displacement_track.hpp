@@ -31,7 +31,8 @@ struct TrackedDisplacement {
   std::optional<double> turn_rad;  ///< change of heading, clockwise from above; none where it is not known
   /// 0, 1, ..., never decreasing. After a loss a new segment begins with the first frame that has a pose
   /// again; that frame is lost too, as how far it is from the frame before is not known. Lost frames without
-  /// a pose belong to the segment before them.
+  /// a pose belong to the segment before them. Where a camera turned on the spot away from all it knew, a new
+  /// segment, with another unit, begins without a loss.
   int segment = 0;
   TrackLoss loss = TrackLoss::kNone;
 };
@@ -48,8 +49,9 @@ enum class TrackScale {
 struct DisplacementTrack {
   TrackScale scale = TrackScale::kPerSegment;
   std::vector<TrackedDisplacement> frames;
-  /// One for each frame, in the unit of its segment; none where lost. Of visual odometry each segment has a
-  /// world of its own, the axes of its first camera; those of a file are the file's.
+  /// One for each frame, in the unit of its segment; none where lost, or where the camera stood or turned
+  /// before anything's depth was known. Of visual odometry each segment has a world of its own, the axes of
+  /// its first camera; those of a file are the file's.
   std::vector<std::optional<Pose3>> poses;
 
   [[nodiscard]] std::size_t size() const { return frames.size(); }

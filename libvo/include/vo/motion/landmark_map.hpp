@@ -35,6 +35,7 @@ struct Keyframe {
 struct LandmarkMap {
   std::vector<Keyframe> keyframes;
   std::vector<Landmark> landmarks;
+  double radial = 0;  ///< radial distortion that calibration left over, taken out of all image points here
 };
 
 /// Settings of the functions below.
@@ -43,6 +44,8 @@ struct LandmarkMapOptions {
   double max_off = 3;               ///< standard deviations beyond which a sighting is none
   double min_parallax_rad = 0.012;  ///< between the rays to a landmark, before its position is trusted
   std::size_t window = 8;           ///< keyframes that are adjusted together
+  double radial_sigma = 0.02;       ///< standard deviation of what calibration leaves of radial distortion
+  double radial_step = 0.002;       ///< and of what one adjustment changes of it; 0: it is not learned
 };
 
 /// Adds a keyframe, and what it sees: all landmarks that are followed.
@@ -53,7 +56,9 @@ void place_landmarks(LandmarkMap& map, const LandmarkMapOptions& options);
 
 /// Adjusts the last `window` keyframes and the landmarks they see, as those and the keyframes before them saw
 /// them; those before stay (Mur-Artal et al. 2015, VI-D, "local bundle adjustment"). Then drops sightings
-/// that do not fit, with the landmarks that do not have two left. See `adjust` for its cost.
+/// that do not fit, with the landmarks that do not have two left. Once there are keyframes before the window,
+/// the radial distortion is adjusted as well: what a calibration leaves of it turns turns into travel, and so
+/// makes the scale drift. See `adjust` for its cost.
 void adjust_window(LandmarkMap& map, const LandmarkMapOptions& options);
 
 /// Forgets landmarks that no longer matter: out of sight, and not seen by the keyframes of the window.

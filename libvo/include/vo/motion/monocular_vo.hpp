@@ -27,6 +27,8 @@ struct MonocularVoOptions {
   double min_parallax_deg = 0.4;    ///< between two rays to a landmark before it is placed
   double start_parallax_deg = 1.0;  ///< the median of the points, before a scene is begun
   std::size_t window = 8;           ///< keyframes adjusted together
+  double radial_sigma = 0.02;       ///< radial distortion that calibration left over, standard deviation
+  double radial_step = 0.002;       ///< what one adjustment learns of it at the most; 0: nothing
   double keyframe_travel = 0.08;    ///< travel since the last keyframe, as a share of the median depth
   double keyframe_share = 0.7;      ///< or landmarks still seen, as a share of those it saw
   std::size_t min_points = 20;      ///< fewer points followed: lost

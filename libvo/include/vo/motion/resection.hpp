@@ -33,4 +33,8 @@ struct Resection {
 Resection resection(std::span<const cv::Vec3d> points, std::span<const ImagePoint> seen, const Pose3& start,
                     const ResectionOptions& options = {});
 
+/// Standard deviation of a displacement whose ends are both as uncertain as this camera, in the direction
+/// `along` (of any length; none: 0).
+double displacement_sigma(const Resection& found, const cv::Vec3d& along);
+
 }  // namespace vo
