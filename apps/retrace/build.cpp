@@ -125,7 +125,6 @@ void build(const CLI::App& app, BuildOptions& options) {
     check_poses_are_geographic(route, options.output);
     survey = survey_from_track(options.track, walk, route.origin);
   }
-  if (!survey) survey = survey_from_odometry(walk, settings.sampling.motion.pedestrian);
 
   const AddedTraverse added = add_traverse(route, options.name, walk, survey, settings);
   place::write_route(options.output, route);
@@ -144,7 +143,8 @@ AddedTraverse add_traverse(place::Route& route, const std::string& name, const v
     throw vo::Error(walk.source, "gives a single keyframe",
                     "a longer walk, or a smaller --sampling-n or --every");
   }
-  place::Traverse traverse = place::make_traverse(name, walk, sampled, survey);
+  place::Traverse traverse =
+      place::make_traverse(name, walk, sampled, survey ? survey : survey_from_odometry(sampled.trajectory));
   for (const SettingEntry& entry : entries(settings)) traverse.settings[entry.name] = entry.value;
   route.sampling.unit = sampled.unit;
   if (reference == nullptr) route.sampling.metric = sampled.metric;

@@ -66,14 +66,11 @@ place::Survey survey_from_track(const std::string& path, const vo::Walk& walk,
   return survey_of(place::local_trajectory(track, *origin), path, walk);
 }
 
-std::optional<place::Survey> survey_from_odometry(const vo::Walk& walk,
-                                                  const vo::PedestrianMotionOptions& options) {
-  if (walk.tracked.empty()) return std::nullopt;
-  const vo::PedestrianMotion motion = vo::pedestrian_motion(walk, options);
-  if (motion.detection.steps.empty()) return std::nullopt;
+std::optional<place::Survey> survey_from_odometry(const vo::Trajectory& odometry) {
+  if (odometry.empty()) return std::nullopt;
   place::Survey survey{.source = "odometry", .surveyed = false, .pose = {}, .distance_m = {}};
-  for (const vo::TimedPose& frame : motion.trajectory.at_frame) survey.pose.emplace_back(frame.pose);
-  survey.distance_m.resize(walk.frames());
+  for (const vo::TimedPose& frame : odometry) survey.pose.emplace_back(frame.pose);
+  survey.distance_m.resize(odometry.size());
   return survey;
 }
 

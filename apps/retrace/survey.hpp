@@ -21,9 +21,8 @@ place::Survey survey_from_trajectory(const std::string& path, const vo::Walk& wa
 place::Survey survey_from_track(const std::string& path, const vo::Walk& walk,
                                 std::optional<place::GeographicOrigin>& origin);
 
-/// For a walk that nobody surveyed: the poses of its own odometry, from (0, 0), without distances. None if it
-/// was read without tracked points or shows no steps.
-std::optional<place::Survey> survey_from_odometry(const vo::Walk& walk,
-                                                  const vo::PedestrianMotionOptions& options);
+/// For a walk that nobody surveyed: the poses of its odometry, one for each frame, without distances. None if
+/// there is no odometry.
+std::optional<place::Survey> survey_from_odometry(const vo::Trajectory& odometry);
 
 }  // namespace retrace

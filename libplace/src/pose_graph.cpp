@@ -293,7 +293,7 @@ Prior prior_at_start(const State& state, bool pose_known, const DriftCorrectionO
 
 bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_convex) {
   constexpr double kStep = 2;  // between stages
-  constexpr int kIterations = 1, kLastIterations = 30, kMostRounds = 5;
+  constexpr int kIterations = 6, kLastIterations = 30, kMostRounds = 5;
   constexpr double kTolerance = 1e-3, kLastTolerance = 1e-7, kSettled = 0.01;
   const std::vector<State> before = graph.states;
   const std::vector<double> errors = squared_errors(graph, options);
