@@ -1,0 +1,58 @@
+#include "odometry_view.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include <vo/io/csv.hpp>
+#include <vo/io/trajectory_io.hpp>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
+  std::vector<double> numbers;
+  for (const std::optional<double>& value : values) numbers.push_back(value.value_or(NAN));
+  return numbers;
+}
+
+}  // namespace
+
+OdometryView read_odometry(const fs::path& folder) {
+  OdometryView walk;
+  walk.trajectory = vo::read_tum(folder / "trajectory.tum");
+  walk.summary = nlohmann::ordered_json::object();
+  if (std::ifstream file(folder / "summary.json"); file)
+    walk.summary = nlohmann::ordered_json::parse(file, nullptr, false);
+  if (fs::exists(folder / "frames.csv")) {
+    const vo::CsvTable table = vo::CsvTable::read(folder / "frames.csv");
+    walk.frames = {.time_s = table.numbers("time_s"),
+                   .displacement = table.numbers("displacement"),
+                   .orientation_deg = or_nan(table.optional_numbers("orientation_deg")),
+                   .matches = table.numbers("matches"),
+                   .heading_deg = table.numbers("heading_deg"),
+                   .signal = table.numbers("step_signal"),
+                   .threshold = table.numbers("step_threshold"),
+                   .source = table.text("source"),
+                   .reliable = table.indices("reliable")};
+  }
+  if (fs::exists(folder / "steps.csv")) {
+    const vo::CsvTable table = vo::CsvTable::read(folder / "steps.csv");
+    walk.steps = {
+        .time_s = table.numbers("time_s"),
+        .frame = table.indices("frame"),
+        .bridged = table.has("bridged") ? table.indices("bridged") : std::vector<std::int64_t>(table.rows()),
+        .leg = table.text("leg")};
+  }
+  if (fs::exists(folder / "activity.csv")) {
+    const vo::CsvTable table = vo::CsvTable::read(folder / "activity.csv");
+    walk.activity = {.time_s = table.numbers("time_s"),
+                     .amplitude_deg = table.numbers("amplitude_deg"),
+                     .step_hz = table.numbers("step_hz"),
+                     .activity = table.text("activity")};
+  }
+  return walk;
+}
+
+}  // namespace retrace
