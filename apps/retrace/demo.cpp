@@ -119,14 +119,14 @@ Settings vanilla_like(const Run& run, const DrawnWalk& day, const DrawnWalk& nig
 cv::Mat view_at(const DrawnWalk& drawn, double distance_m) {
   const std::vector<double> along = vo::read_truth(drawn.truth()).distance_m;
   const auto index = std::ranges::lower_bound(along, distance_m) - along.begin();
-  const auto source = vo::open_frame_source(drawn.video());
+  const auto source = vo::open_frame_source(drawn.video(), {.colour_width_px = kOverviewTile_px});
   std::optional<vo::Frame> frame = source->next();
   for (std::ptrdiff_t i = 0; i < index; ++i) {
     std::optional<vo::Frame> next = source->next();
     if (!next) break;
     frame = std::move(next);
   }
-  return frame->image;
+  return frame->colour;
 }
 
 std::vector<std::uint8_t> overview(const DrawnWalk& day, const DrawnWalk& night, const Run& vanilla,

@@ -15,7 +15,8 @@
 namespace vo {
 namespace {
 
-std::vector<std::uint8_t> preview_of(const cv::Mat& image, int width_px) {
+std::vector<std::uint8_t> preview_of(const Frame& frame, int width_px) {
+  const cv::Mat& image = frame.colour.empty() ? frame.image : frame.colour;
   const int width = std::min(width_px, image.cols);
   const int height = std::max(1, static_cast<int>(std::int64_t{image.rows} * width / image.cols));
   // Halving is many times faster than any other ratio, and as good for people to look at.
@@ -58,7 +59,7 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
   parallel_for(batch.size(), [&](std::size_t i) {
     make_thumbnail(batch[i].image, options.thumbnail, walk.thumbnails[begin + i]);
     if (options.preview_width_px > 0)
-      walk.previews[begin + i] = preview_of(batch[i].image, options.preview_width_px);
+      walk.previews[begin + i] = preview_of(batch[i], options.preview_width_px);
   });
   std::vector<cv::Mat> images;
   for (const Frame& frame : batch) images.push_back(frame.image);
@@ -76,7 +77,9 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
 }  // namespace
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
-  return read_walk(*open_frame_source(source, options.frames), source, options, progress);
+  FrameSourceOptions frames = options.frames;
+  frames.colour_width_px = std::max(0, options.preview_width_px);
+  return read_walk(*open_frame_source(source, frames), source, options, progress);
 }
 
 Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options,

@@ -1,5 +1,6 @@
 #include "vo/io/frame_source.hpp"
 
+#include "io/video_decoder.hpp"
 #include "vo/base/error.hpp"
 
 #include <algorithm>
@@ -36,18 +37,12 @@ bool is_image_name(const fs::path& path) {
 
 class VideoSource final : public FrameSource {
  public:
-  explicit VideoSource(const std::string& path) : path_(path) {
-    bool opened = false;
-    try {
-      opened = capture_.open(path, cv::CAP_FFMPEG);
-    } catch (const cv::Exception&) {
-      opened = false;
-    }
-    if (!opened) throw Error(path, "is no video that FFmpeg can read", kWalkForms);
-    const double rate = capture_.get(cv::CAP_PROP_FPS);
-    if (std::isfinite(rate) && rate > 0) nominal_step_s_ = 1 / rate;
-    const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
-    if (std::isfinite(count) && count >= 1) expected_ = std::llround(count);
+  VideoSource(const std::string& path, int colour_width_px)
+      : path_(path),
+        colour_width_px_(colour_width_px),
+        decoder_(path),
+        expected_(decoder_.expected_frames()) {
+    if (const std::optional<double> rate_hz = decoder_.rate_hz()) nominal_step_s_ = 1 / *rate_hz;
     lookahead_ = read();
     if (!lookahead_) throw Error(path, "holds no frame that can be decoded", "a video");
   }
@@ -77,30 +72,30 @@ class VideoSource final : public FrameSource {
 
  private:
   std::optional<Frame> read() {
-    cv::Mat image;
-    if (!capture_.read(image) || image.empty()) {
+    std::optional<VideoDecoder::Picture> picture = decoder_.next(colour_width_px_);
+    if (!picture) {
       ended_ = true;
       return std::nullopt;
     }
-    double time_s = capture_.get(cv::CAP_PROP_POS_MSEC) / 1000;
     if (count_ == 0) {
-      origin_s_ = std::isfinite(time_s) ? time_s : 0;
-      time_s = 0;
+      origin_s_ = picture->time_s.value_or(0);
+    } else if (picture->time_s && *picture->time_s - origin_s_ > last_time_s_) {
+      last_time_s_ = *picture->time_s - origin_s_;
     } else {
-      time_s -= origin_s_;
-      if (!std::isfinite(time_s) || time_s <= last_time_s_) {
-        time_s = last_time_s_ + nominal_step_s_;
-        ++untimed_;
-      }
+      last_time_s_ += nominal_step_s_;
+      ++untimed_;
     }
-    last_time_s_ = time_s;
-    return Frame{.index = count_++, .time_s = time_s, .image = std::move(image)};
+    return Frame{.index = count_++,
+                 .time_s = last_time_s_,
+                 .image = std::move(picture->grey),
+                 .colour = std::move(picture->colour)};
   }
 
   std::string path_;
-  cv::VideoCapture capture_;
-  double nominal_step_s_ = 1.0 / 30;
+  int colour_width_px_;
+  VideoDecoder decoder_;
   std::optional<std::int64_t> expected_;
+  double nominal_step_s_ = 1.0 / 30;
   std::optional<Frame> lookahead_;
   std::int64_t count_ = 0;
   std::int64_t untimed_ = 0;
@@ -227,6 +222,9 @@ std::unique_ptr<FrameSource> open_frame_source(const std::string& walk, const Fr
   if (!(options.image_rate_hz > 0) || !std::isfinite(options.image_rate_hz)) {
     throw std::invalid_argument("open_frame_source: image_rate_hz must be positive and finite");
   }
+  if (options.colour_width_px < 0) {
+    throw std::invalid_argument("open_frame_source: colour_width_px must be >= 0");
+  }
   if (const std::optional<int> number = camera_number(walk)) return std::make_unique<CameraSource>(*number);
 
   std::error_code error;
@@ -237,7 +235,7 @@ std::unique_ptr<FrameSource> open_frame_source(const std::string& walk, const Fr
   if (fs::is_regular_file(status) && fs::file_size(walk, error) == 0 && !error) {
     throw Error(walk, "is empty (0 bytes)", kWalkForms);
   }
-  return std::make_unique<VideoSource>(walk);
+  return std::make_unique<VideoSource>(walk, options.colour_width_px);
 }
 
 }  // namespace vo

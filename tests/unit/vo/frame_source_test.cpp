@@ -22,12 +22,20 @@ void write_image(const std::filesystem::path& path, int grey, cv::Size size = {8
   ASSERT_TRUE(cv::imwrite(path.string(), cv::Mat(size, CV_8UC1, cv::Scalar(grey))));
 }
 
-/// Frames whose brightness tells their number.
-void write_video(const std::filesystem::path& path, int frames, double rate_hz) {
-  cv::VideoWriter writer(path.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), rate_hz,
-                         {64, 48});
+/// Frames of 64x48, all alike or, without `picture`, of a brightness that tells their number.
+void write_video(const std::filesystem::path& path, int frames, double rate_hz, const char* codec = "MJPG",
+                 const cv::Mat& picture = {}) {
+  cv::VideoWriter writer(path.string(), cv::CAP_FFMPEG,
+                         cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]), rate_hz, {64, 48});
   ASSERT_TRUE(writer.isOpened());
-  for (int i = 0; i < frames; ++i) writer.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(10 * i)));
+  for (int i = 0; i < frames; ++i)
+    writer.write(picture.empty() ? cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(10 * i)) : picture);
+}
+
+cv::Mat half_black_half_white() {
+  cv::Mat picture(48, 64, CV_8UC3, cv::Scalar::all(0));
+  picture.colRange(32, 64).setTo(cv::Scalar::all(255));
+  return picture;
 }
 
 std::vector<vo::Frame> read_all(vo::FrameSource& source) {
@@ -97,9 +105,56 @@ TEST(FrameSource, ReadsAVideoWithItsTimes) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_EQ(frames[i].index, static_cast<std::int64_t>(i));
     EXPECT_NEAR(frames[i].time_s, static_cast<double>(i) / 20, 1e-3);  // containers keep milliseconds
-    EXPECT_NEAR(frames[i].image.at<cv::Vec3b>(20, 20)[0], 10 * i, 4);  // JPEG's loss on a plain picture
+    EXPECT_EQ(frames[i].image.type(), CV_8UC1);
+    EXPECT_NEAR(frames[i].image.at<uchar>(20, 20), 10 * i, 4);  // JPEG's loss on a plain picture
   }
   EXPECT_TRUE(source->warnings().empty());
+}
+
+TEST(FrameSource, GreyOfAVideoGoesFromBlackToWhite) {
+  const TemporaryFolder folder;
+  // MPEG-4 keeps luma from 16 to 235.
+  write_video(folder / "walk.mp4", 2, 20, "mp4v", half_black_half_white());
+  const auto frames = read_all(*vo::open_frame_source((folder / "walk.mp4").string()));
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_LE(frames[0].image.at<uchar>(24, 8), 2);
+  EXPECT_GE(frames[0].image.at<uchar>(24, 56), 253);
+}
+
+TEST(FrameSource, GivesSmallPicturesInColourWhereTheyAreAskedFor) {
+  const TemporaryFolder folder;
+  const cv::Vec3b colour(30, 90, 200);
+  const std::string path = (folder / "walk.mp4").string();
+  write_video(path, 1, 20, "mp4v", cv::Mat(48, 64, CV_8UC3, cv::Scalar(colour)));
+  EXPECT_TRUE(vo::open_frame_source(path)->next()->colour.empty());
+  EXPECT_EQ(vo::open_frame_source(path, {.colour_width_px = 100})->next()->colour.size(), cv::Size(64, 48));
+  const cv::Mat small = vo::open_frame_source(path, {.colour_width_px = 32})->next()->colour;
+  ASSERT_EQ(small.size(), cv::Size(32, 24));
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(small.at<cv::Vec3b>(12, 16)[c], colour[c], 6) << c;  // MPEG-4's loss
+}
+
+TEST(FrameSource, TurnsAVideoUpright) {
+  const TemporaryFolder folder;
+  write_video(folder / "walk.mp4", 1, 20, "mp4v", half_black_half_white());
+  std::string file = test_support::read_file(folder / "walk.mp4");
+  // The matrix in the header of the track, 16.16 fixed point: a quarter turn clockwise, as phones write it.
+  const std::size_t matrix = file.find("tkhd") + 4 + 40;
+  const auto put = [&](std::size_t entry, const char* bytes) {
+    file.replace(matrix + 4 * entry, 4, bytes, 4);
+  };
+  put(0, "\0\0\0\0");
+  put(1, "\0\1\0\0");
+  put(3, "\xff\xff\0\0");
+  put(4, "\0\0\0\0");
+  const auto path = folder.write("turned.mp4", file);
+  const auto frame = vo::open_frame_source(path.string(), {.colour_width_px = 24})->next();
+  ASSERT_EQ(frame->image.size(), cv::Size(48, 64));
+  EXPECT_LE(frame->image.at<uchar>(8, 24), 2);  // what was left is above
+  EXPECT_GE(frame->image.at<uchar>(56, 24), 253);
+  ASSERT_EQ(frame->colour.size(), cv::Size(24, 32));
+  EXPECT_LE(frame->colour.at<cv::Vec3b>(4, 12)[1], 4);
+  EXPECT_GE(frame->colour.at<cv::Vec3b>(28, 12)[1], 251);
 }
 
 TEST(FrameSource, SaysThatAVideoBreaksOff) {
@@ -130,6 +185,7 @@ TEST(FrameSource, RefusesWhatIsNoWalk) {
                     "camera:x: is no camera; expected camera:N");
   EXPECT_THROW_WITH(vo::open_frame_source("camera:99"), vo::Error, "camera:99: cannot be opened");
   EXPECT_THROW(vo::open_frame_source(folder.path().string(), {.image_rate_hz = 0}), std::invalid_argument);
+  EXPECT_THROW(vo::open_frame_source(folder.path().string(), {.colour_width_px = -1}), std::invalid_argument);
 }
 
 }  // namespace

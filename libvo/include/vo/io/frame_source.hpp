@@ -15,13 +15,15 @@ namespace vo {
 struct Frame {
   std::int64_t index = 0;  ///< position in the source, from 0
   double time_s = 0;       ///< seconds since the first frame, strictly increasing
-  cv::Mat image;           ///< 8 bit, one channel (grey) or three (BGR), upright
+  cv::Mat image;           ///< 8 bit, upright; a video's is grey, others are grey or BGR as they come
+  cv::Mat colour;          ///< of a video that was asked for it: BGR, small, upright; else empty
 };
 
 /// Settings of `open_frame_source`.
 struct FrameSourceOptions {
   double image_rate_hz =
       30;  ///< frames per second of a folder of images, which carries no times (SSS 3.1: 25-30)
+  int colour_width_px = 0;  ///< pixels, at most, of a video's pictures in colour; 0: none
 };
 
 /// Frames of a walk in order, once. A source is read from one thread.
@@ -40,7 +42,7 @@ class FrameSource {
 };
 
 /// Opens a walk:
-///  - a video file, any that OpenCV's FFmpeg reads. Times are the container's presentation times, so variable
+///  - a video file, any that FFmpeg reads. Times are the container's presentation times, so variable
 ///  frame
 ///    rate comes out right; frames without a usable time follow at the nominal rate, with a warning. Rotation
 ///    metadata is applied. A video that breaks off gives the frames it has, with a warning that says how
