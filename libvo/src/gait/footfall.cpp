@@ -71,11 +71,11 @@ void name_legs(std::vector<Step>& steps, std::span<const Step> legs) {
 
 }  // namespace
 
-StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<const double> spread,
+StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<const double> growth,
                                std::span<const double> time_s, const std::vector<bool>& reliable,
                                std::span<const Step> legs, const FootfallOptions& options) {
   const std::size_t frames = bounce_px.size();
-  if (spread.size() != frames || time_s.size() != frames || reliable.size() != frames)
+  if (growth.size() != frames || time_s.size() != frames || reliable.size() != frames)
     throw std::invalid_argument("detect_footfalls: one value of each per frame expected");
   if (!(options.min_depth > 0 && options.sure_depth >= options.min_depth))
     throw std::invalid_argument("detect_footfalls: 0 < min_depth <= sure_depth expected");
@@ -99,7 +99,7 @@ StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<cons
   for (std::size_t i = 0; i < frames; ++i)
     result.delta_dyn_deg[i] = options.min_depth * bounce.amplitude_px[i];
 
-  const StepWay way(spread, time_s, valleys(bounce, time_s, reliable, options.sure_depth), options.way);
+  const StepWay way(growth, time_s, valleys(bounce, time_s, reliable, options.sure_depth), options.way);
   if (!way.known()) return result;
   std::vector<std::size_t> falls = valleys(bounce, time_s, reliable, options.min_depth);
   const auto sure = [&](std::size_t i) {

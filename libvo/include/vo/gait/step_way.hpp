@@ -11,34 +11,35 @@ namespace vo {
 
 /// Settings of `StepWay`.
 struct StepWayOptions {
-  double min_spread = 0.15;   ///< share of the usual spread from which one walks
+  double min_growth = 0.15;   ///< share of the usual growth from which one walks
   double min_way = 0.3;       ///< steps in the time of one, about a frame at which one walks
   double missed_ratio = 1.5;  ///< of a usual step: a longer gap may have lost steps, or be a stand
 };
 
-/// How far a walker got on between any two frames, in steps, as the spread of the picture tells it.
+/// How far a walker got on between any two frames, in steps, as the growth of the picture tells it.
 ///
 /// Things ahead grow in the picture at the rate of speed over distance. The distances differ from scene to
-/// scene, so that the measure is the spread at the nearest steps that follow each other without a gap. Speed
+/// scene, so that the measure is the growth at the nearest steps that follow each other without a gap. Speed
 /// is step length times cadence, and both grow alike with it (see `step_lengths_m`): cadence is the usual one
-/// times the square root of the spread's share of the usual, at most 1. Below a least share one stands.
+/// times the square root of the growth's share of the usual, at most 1. Below a least share one stands.
 class StepWay {
  public:
-  /// `spread`: share by which the picture grows, one per frame, low-passed, unreliable frames bridged;
+  /// `growth`: share by which the picture grows, one per frame, low-passed, unreliable frames bridged;
   /// `time_s`: one per frame; `step_frames`: of sure steps, increasing. Keeps references to the first two.
-  StepWay(std::span<const double> spread, std::span<const double> time_s,
+  StepWay(std::span<const double> growth, std::span<const double> time_s,
           std::span<const std::size_t> step_frames, const StepWayOptions& options = {});
 
   /// False if no two steps followed each other: then there is no measure, and nothing below may be called.
   [[nodiscard]] bool known() const { return !steps_.empty(); }
 
-  /// True if the picture spreads at a frame as it does when one walks. O(log steps).
+  /// True if the picture grows at a frame as it does when one walks. O(log steps).
   [[nodiscard]] bool walking(std::size_t frame) const;
 
   /// True if two frames lie further apart than one step takes.
   [[nodiscard]] bool gap(std::size_t a, std::size_t b) const;
 
-  /// Steps between two frames, by the measure at frame `measure`. O(b - a).
+  /// Steps between two frames, by the measure at frame `measure`; as many as there was time for if the
+  /// picture does not grow there, as in a turn before a wall. O(b - a).
   [[nodiscard]] double between(std::size_t a, std::size_t b, std::size_t measure) const;
 
   /// Seconds of a usual step about a frame. O(log steps).
@@ -48,11 +49,11 @@ class StepWay {
   struct Interval {
     std::size_t end = 0;  ///< frame
     double seconds = 0;
-    double spread = 0;  ///< mean of its frames
+    double growth = 0;  ///< mean of its frames
   };
   [[nodiscard]] Interval usual(std::size_t frame) const;  // medians of the nearest
 
-  std::span<const double> spread_;
+  std::span<const double> growth_;
   std::span<const double> time_s_;
   StepWayOptions options_;
   std::vector<Interval> steps_;
