@@ -101,29 +101,41 @@ std::string activity_csv(const vo::PedestrianMotion& motion) {
   return csv;
 }
 
+constexpr std::string_view name_of(vo::StepSignal signal) {
+  switch (signal) {
+    case vo::StepSignal::kBounce:
+      return "bounce";
+    case vo::StepSignal::kShift:
+      return "x shift";
+    case vo::StepSignal::kOrientation:
+      break;
+  }
+  return "orientation";
+}
+
 ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double step_length_m) {
   const vo::PedestrianMotion& motion = *walked.pedestrian;
-  const bool by_shift = motion.step_signal == vo::StepSignal::kShift;
   double distance_m = 0;
   std::map<std::string, std::size_t> sources;
   for (const vo::FrameDisplacement& frame : walked.frames) {
     distance_m += frame.value;
     if (frame.source != vo::DisplacementSource::kNone) ++sources[std::string(vo::name_of(frame.source))];
   }
-  ordered_json json{{"walk", walk.source},
-                    {"frames", walk.frames()},
-                    {"duration_s", walk.time_s.back()},
-                    {"steps", motion.detection.steps.size()},
-                    {"step_signal", by_shift ? "x shift" : "orientation"},
-                    {"step_signal_unit", by_shift ? "px a frame" : "deg a frame"},
-                    {"steps_bridged", motion.detection.bridged},
-                    {"frames_bridged", motion.signal.bridged},
-                    {"step_length_m", step_length_m},
-                    {"distance_m", distance_m},
-                    {"frames_by_source", sources},
-                    {"delta_min", nullptr},
-                    {"warnings", walk.warnings},
-                    {"version", place::kVersion}};
+  ordered_json json{
+      {"walk", walk.source},
+      {"frames", walk.frames()},
+      {"duration_s", walk.time_s.back()},
+      {"steps", motion.detection.steps.size()},
+      {"step_signal", std::string(name_of(motion.step_signal))},
+      {"step_signal_unit", motion.step_signal == vo::StepSignal::kOrientation ? "deg a frame" : "px a frame"},
+      {"steps_bridged", motion.detection.bridged},
+      {"frames_bridged", motion.signal.bridged},
+      {"step_length_m", step_length_m},
+      {"distance_m", distance_m},
+      {"frames_by_source", sources},
+      {"delta_min", nullptr},
+      {"warnings", walk.warnings},
+      {"version", place::kVersion}};
   for (const vo::Activity activity :
        {vo::Activity::kStanding, vo::Activity::kWalking, vo::Activity::kRunning, vo::Activity::kUnknown}) {
     json["activity_s"][std::string(name_of(activity))] =

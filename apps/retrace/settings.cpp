@@ -153,6 +153,15 @@ void add_odometry_options(CLI::App& app, Settings& s) {
       ->check(CLI::Range(1, 8));
   add(app, kOdometry, "--lowpass-cutoff-hz", pedestrian.signal.lowpass.cutoff_hz, "its cut-off [PVO 5.3]")
       ->check(CLI::PositiveNumber);
+  using vo::StepSignal;
+  add_choice(
+      app, kOdometry, "--step-signal", pedestrian.step_signal,
+      {{"auto", std::nullopt},
+       {"bounce", StepSignal::kBounce},
+       {"orientation", StepSignal::kOrientation},
+       {"shift", StepSignal::kShift}},
+      "what steps are read from: the picture's bounce, orientation alone [PVO 4.4], or x shift; auto: the "
+      "bounce, unless another is like gait for longer");
   add(app, kOdometry, "--min-step-deg", pedestrian.steps.delta_min_deg,
       "degrees of orientation change a frame, the static threshold; learned from the walk if not given [PVO "
       "4.4]")

@@ -182,6 +182,16 @@ class AccuracyTest(unittest.TestCase):
 
     # ---- pedestrian odometry ----
 
+    def test_steps_on_a_real_footpath(self):
+        """By accelerometer; both cameras steady their picture."""
+        for name, steps in (("reference", 23), ("query", 17)):
+            out = self.folder / f"footpath_{name}"
+            check("odometry", DATA / "gopro_footpath" / f"{name}.mp4", "-o", out, "--motion", "steps")
+            found = len(rows(out / "steps.csv"))
+            print(f"\n  footpath, {name}: {found} of {steps} steps, read from the {read_json(out / 'summary.json')['step_signal']}",
+                  end=" ", flush=True)
+            self.assertLessEqual(abs(found - steps), 1)
+
     def odometry(self, name):
         truth = rows(SIM / f"{name}.csv")
         out = self.folder / name
@@ -207,13 +217,13 @@ class AccuracyTest(unittest.TestCase):
         self.assertLessEqual(metrics["euclidean_error_m"]["100"], 8)
 
     def test_odometry_indoors(self):
-        for name, step_error_pct in (("corridor_a", 1), ("corridor_b", 3)):
+        for name in ("corridor_a", "corridor_b"):
             metrics = self.odometry(name)
-            self.assertLessEqual(abs(metrics["step_error_pct"]), step_error_pct)
+            self.assertLessEqual(abs(metrics["step_error_pct"]), 1)
             self.assertLessEqual(metrics["euclidean_error_m"]["50"], 4)
 
     def test_standing_is_no_step(self):
-        self.odometry("stand_walk")
+        self.assertLessEqual(abs(self.odometry("stand_walk")["step_error_pct"]), 1)
         truth = rows(SIM / "stand_walk.csv")
         for step in rows(self.folder / "stand_walk" / "steps.csv"):
             # Half a second either side, the time of a step, belongs to the walk.

@@ -185,10 +185,11 @@ std::optional<Chart> error_chart(const OdometryView& walk, Chart chart, double v
 
 std::optional<Chart> gait_chart(const OdometryView& walk) {
   if (walk.frames.time_s.empty()) return {};
-  const bool by_shift = walk.summary.value("step_signal", "orientation") != "orientation";
+  const std::string read_from = walk.summary.value("step_signal", "orientation");
+  const bool by_orientation = read_from == "orientation";
   Chart chart{.title = "gait signal with thresholds and steps",
               .x_title = "time, s",
-              .y_title = by_shift ? "x shift, px a frame" : "orientation change, deg a frame",
+              .y_title = by_orientation ? "orientation change, deg a frame" : read_from + ", px a frame",
               .bands = {unreliable(walk)},
               .zoomable = true,
               .size = "tall"};
@@ -205,7 +206,7 @@ std::optional<Chart> gait_chart(const OdometryView& walk) {
     const std::vector<double> level(walk.frames.time_s.size(), walk.summary["delta_min"].get<double>());
     chart.series.push_back(threshold_lines(walk, "static threshold", level, {7, 5}));
   }
-  if (!by_shift) {
+  if (by_orientation) {
     chart.series.push_back({.name = "as measured",
                             .x = walk.frames.time_s,
                             .y = walk.frames.orientation_deg,

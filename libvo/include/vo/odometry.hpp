@@ -4,6 +4,7 @@
 #include "vo/gait/activity.hpp"
 #include "vo/gait/dead_reckoning.hpp"
 #include "vo/gait/feature_tracker.hpp"
+#include "vo/gait/footfall.hpp"
 #include "vo/gait/gait_signal.hpp"
 #include "vo/gait/step_detection.hpp"
 #include "vo/gait/step_fusion.hpp"
@@ -89,21 +90,26 @@ struct VisualMotion {
 /// still throughout).
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options = {});
 
+/// What steps are read from.
+enum class StepSignal {
+  kOrientation,  ///< the camera rolls with each stride [PVO]
+  kBounce,       ///< the picture moves up and down with each step
+  kShift,  ///< it swings from side to side: where nothing else is like gait, as with cameras that hold their
+           ///< horizon and height steady; legs are then a guess
+};
+
 /// Settings of `pedestrian_motion`.
 struct PedestrianMotionOptions {
+  /// None: the bounce, unless another shows gait in more of the walk; the orientation if its static threshold
+  /// is given.
+  std::optional<StepSignal> step_signal;
   GaitSignalOptions signal;
   StepDetectionOptions steps;
+  FootfallOptions footfalls;
   StepFusionOptions fusion;
   StepLengthOptions step_length;
   DeadReckoningOptions dead_reckoning;
   ActivityOptions activity;
-};
-
-/// What steps are read from.
-enum class StepSignal {
-  kOrientation,  ///< the camera rolls with each stride [PVO]
-  kShift,  ///< it swings from side to side: where nothing in the orientation is like gait, as with cameras
-           ///< that keep their horizon level; legs are then a guess
 };
 
 /// Steps, heading and trajectory of a walk (PVO 4).

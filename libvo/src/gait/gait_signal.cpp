@@ -14,6 +14,7 @@ namespace vo {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kSlowestBounce_hz = 1;  // one a step, where a stride takes two
 
 double mean(std::span<const double> values) {
   double sum = 0;
@@ -42,7 +43,8 @@ double travel_rad(std::span<const FrameMotion> motion) {
 }  // namespace
 
 FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const FrameMotionOptions& options) {
-  FrameMotion motion{.matches = tracks.points.size(), .orientation_deg = {}, .shift_px = {}, .turn = {}};
+  FrameMotion motion{
+      .matches = tracks.points.size(), .orientation_deg = {}, .shift_px = {}, .picture = {}, .turn = {}};
   if (tracks.span == 0 || tracks.points.size() < std::max<std::size_t>(options.min_matches, 1)) return motion;
   std::vector<double> rotations_rad, shifts_px;
   for (const TrackedPoint& point : tracks.points) {
@@ -55,6 +57,11 @@ FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const Frame
   motion.orientation_deg =
       (by_median ? median(rotations_rad) : mean_angle_rad(rotations_rad)) * kDegrees / frames;
   motion.shift_px = (by_median ? median(shifts_px) : mean(shifts_px)) / frames;
+  motion.picture = picture_motion(tracks.points, camera.width_px, camera.height_px);
+  if (motion.picture) {
+    motion.picture = PictureMotion{motion.picture->right_px / frames, motion.picture->down_px / frames,
+                                   motion.picture->growth / frames, motion.picture->roll_rad / frames};
+  }
   motion.turn = turn(tracks.points, camera, options.heading);
   if (motion.turn) {
     motion.turn->turn_rad /= frames;
@@ -69,11 +76,16 @@ GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const doub
   const double rate_hz = frame_rate_hz(time_s);
   GaitSignal signal;
   signal.travel_rad = travel_rad(motion);
-  std::vector<double> shifts_px, turns_rad;
+  std::vector<double> shifts_px, turns_rad, down_px, growth;
+  std::vector<bool> seen;  // the picture's motion
   for (const FrameMotion& frame : motion) {
     signal.reliable.push_back(frame.orientation_deg && frame.shift_px && frame.turn);
     signal.orientation_deg.push_back(frame.orientation_deg.value_or(0));
     shifts_px.push_back(frame.shift_px.value_or(0));
+    const PictureMotion picture = frame.picture.value_or(PictureMotion{});
+    down_px.push_back(picture.down_px);
+    growth.push_back(picture.growth);
+    seen.push_back(frame.picture.has_value());
     const Turn turn = frame.turn.value_or(Turn{});
     turns_rad.push_back(turn.turn_rad + turn.turn_per_travel * signal.travel_rad);
   }
@@ -83,6 +95,9 @@ GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const doub
   signal.filtered_orientation_deg = lowpass_zero_phase(signal.orientation_deg, rate_hz, options.lowpass);
   signal.filtered_shift_px = lowpass_zero_phase(
       without_drift(bridge_gaps(shifts_px, signal.reliable), rate_hz), rate_hz, options.lowpass);
+  signal.bounce_px = lowpass_zero_phase(without_drift(bridge_gaps(down_px, seen), rate_hz, kSlowestBounce_hz),
+                                        rate_hz, options.lowpass);
+  signal.growth = lowpass_zero_phase(bridge_gaps(growth, seen), rate_hz, options.lowpass);
 
   turns_rad = bridge_gaps(turns_rad, signal.reliable);
   turns_rad.front() = 0;

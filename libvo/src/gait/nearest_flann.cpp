@@ -7,10 +7,6 @@
 namespace vo {
 namespace {
 
-constexpr unsigned kSeed = 1;
-constexpr int kTrees = 4;    // FLANN's default
-constexpr int kChecks = 64;  // leaves visited per query
-
 std::vector<std::size_t> points_of(const Features& features, std::int8_t laplacian) {
   std::vector<std::size_t> points;
   for (std::size_t i = 0; i < features.size(); ++i)
@@ -36,15 +32,15 @@ std::vector<Nearest> search(const Features& from, const Features& to) {
     auto query_rows = rows_of(from, queries), reference_rows = rows_of(to, references);
     const flann::Matrix<float> query(query_rows.data(), queries.size(), from.descriptor_size);
     const flann::Matrix<float> reference(reference_rows.data(), references.size(), from.descriptor_size);
-    flann::seed_random(kSeed);
-    flann::Index<flann::L2<float>> index(reference, flann::KDTreeIndexParams(kTrees));
+    // A single tree: FLANN's randomised ones draw from the machine's own entropy, and never repeat.
+    flann::Index<flann::L2<float>> index(reference, flann::KDTreeSingleIndexParams());
     index.buildIndex();
     const std::size_t count = std::min<std::size_t>(2, references.size());
     std::vector<std::size_t> indices(queries.size() * count);
     std::vector<float> distances(queries.size() * count);
     flann::Matrix<std::size_t> index_matrix(indices.data(), queries.size(), count);
     flann::Matrix<float> distance_matrix(distances.data(), queries.size(), count);
-    flann::SearchParams params(kChecks);
+    flann::SearchParams params;
     params.cores = 1;
     index.knnSearch(query, index_matrix, distance_matrix, count, params);
     for (std::size_t q = 0; q < queries.size(); ++q) {

@@ -123,6 +123,10 @@ StepDetection detect_steps(std::span<const double> signal_deg, std::span<const d
   }
   const std::vector<double> average_deg = local_gait_amplitude_deg(windows, signal_deg.size());
 
+  result.gait_share =
+      static_cast<double>(std::ranges::count_if(average_deg, [](double deg) { return deg > 0; })) /
+      static_cast<double>(average_deg.size());
+
   auto drawn = result.delta_dyn_deg.begin();
   double delta_dyn_deg = 0;
   for (const Step& extremum : signed_extrema(signal_deg, time_s)) {

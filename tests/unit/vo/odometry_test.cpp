@@ -234,6 +234,33 @@ TEST(PedestrianMotion, ReadsStepsFromTheShiftWhereTheHorizonIsSteady) {
   EXPECT_NEAR(static_cast<double>(motion.detection.steps.size()), 20, 1);  // taking drift out bends the ends
 }
 
+TEST(PedestrianMotion, ReadsStepsFromTheBounceWhereThereIsOne) {
+  vo::Walk walk = tracked_walk(0.5, 3);
+  for (std::size_t i = 1; i < walk.frames(); ++i) {
+    // Up fastest as a foot lands, every half second; the roll is at its fastest a quarter second before.
+    const double down_px = -2 * std::cos(4 * std::numbers::pi * walk.time_s[i]);
+    walk.tracked[i].picture =
+        vo::PictureMotion{.right_px = 0, .down_px = down_px, .growth = 0.01, .roll_rad = 0};
+  }
+  const vo::PedestrianMotion motion = vo::pedestrian_motion(walk);
+  EXPECT_EQ(motion.step_signal, vo::StepSignal::kBounce);
+  EXPECT_EQ(vo::step_signal(motion), motion.signal.bounce_px);
+  ASSERT_EQ(motion.detection.steps.size(), 20U);  // the last ends a frame after the recording does
+  EXPECT_EQ(motion.detection.steps[0].leg, vo::Leg::kLeft);
+  EXPECT_NEAR(motion.detection.steps[0].time_s, 0.5, 0.05);
+  EXPECT_EQ(motion.activity[5].activity, vo::Activity::kWalking);
+
+  vo::PedestrianMotionOptions options;
+  options.step_signal = vo::StepSignal::kOrientation;
+  EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kOrientation);
+  options.step_signal = vo::StepSignal::kShift;
+  EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kShift);
+  // A threshold in degrees is one of the orientation.
+  options = {};
+  options.steps.delta_min_deg = 0.1;
+  EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kOrientation);
+}
+
 TEST(PedestrianMotion, StandingHasNoSteps) {
   const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0, 0));
   EXPECT_EQ(motion.step_signal, vo::StepSignal::kOrientation);

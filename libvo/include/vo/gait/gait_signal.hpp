@@ -3,6 +3,7 @@
 #include "vo/base/camera.hpp"
 #include "vo/gait/heading.hpp"
 #include "vo/gait/lowpass.hpp"
+#include "vo/gait/picture_motion.hpp"
 #include "vo/gait/tracking_window.hpp"
 
 #include <cstddef>
@@ -21,7 +22,8 @@ struct FrameMotion {
   std::optional<double>
       orientation_deg;             ///< change of the points' orientation; clockwise in the picture positive
   std::optional<double> shift_px;  ///< of the points, to the right positive
-  std::optional<Turn> turn;        ///< of the camera
+  std::optional<PictureMotion> picture;  ///< of the whole picture
+  std::optional<Turn> turn;              ///< of the camera
 };
 
 /// Settings of `frame_motion`.
@@ -41,6 +43,8 @@ struct GaitSignal {
   std::vector<double> orientation_deg;           ///< orientation change, gaps bridged
   std::vector<double> filtered_orientation_deg;  ///< low-passed
   std::vector<double> filtered_shift_px;         ///< x shift without turns and drift, low-passed
+  std::vector<double> bounce_px;                 ///< picture's motion down without drift, low-passed
+  std::vector<double> growth;                    ///< of the picture, low-passed
   std::vector<double> heading_rad;               ///< of the walker, clockwise, since the first frame
   double travel_rad = 0;                         ///< how far right of where the camera looks the walker goes
   std::vector<bool> reliable;                    ///< false where too few points were tracked

@@ -18,7 +18,7 @@ struct Match {
 
 enum class MatchSearch {
   kExact,  ///< every pair
-  kFlann,  ///< four randomised k-d trees (Muja and Lowe 2009): not always the nearest
+  kFlann,  ///< a k-d tree: the nearest as well, in another order of rounding
 };
 
 /// Settings of `match_features`.
@@ -36,8 +36,8 @@ struct MatchOptions {
 /// 2004, section 7.1), and if no other `from` is nearer to it. Of equal distances the lowest index wins.
 /// Only candidates, that is points of the same sign and within `max_displacement_px`, count as second nearest
 /// or as rivals; a point with a single candidate passes the ratio test. `kFlann` searches without the
-/// displacement and drops pairs too far apart afterwards; its trees are seeded, so that the same features
-/// give the same matches.
+/// displacement and drops pairs too far apart afterwards; its tree is not randomised, so that the same
+/// features give the same matches.
 ///
 /// Throws `std::invalid_argument` if descriptor sizes differ while both have points, the ratio is not in (0,
 /// 1], or the displacement is negative. O(|from| |to| descriptor size) for `kExact`, in parallel, with the

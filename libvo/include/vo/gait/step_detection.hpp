@@ -37,6 +37,7 @@ struct StepDetection {
   std::vector<Step> steps;              ///< in order of time, bridged ones among them
   std::size_t bridged = 0;              ///< how many of them are
   std::optional<double> delta_min_deg;  ///< as given or learned; none if nothing in the walk is like gait
+  double gait_share = 0;                ///< of the frames, those about which the signal is like gait
   std::vector<double> delta_dyn_deg;    ///< at each frame, degrees; with delta_min what PVO's Fig. 3 shows
 };
 
