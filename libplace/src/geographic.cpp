@@ -65,12 +65,13 @@ std::optional<double> utc_s(const std::string& text) {
 
 GeographicTrack read_gpx(const std::filesystem::path& path) {
   std::ifstream file(path);
+  if (!file) throw vo::Error(path.string(), "cannot be read", "a GPX file");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   GeographicTrack track;
   double first_s = 0;
   for (std::size_t at = text.find("<trkpt"); at != std::string::npos; at = text.find("<trkpt", at + 1)) {
     const std::string where = fmt::format("{}: track point {}", path.string(), track.points.size() + 1);
-    const std::size_t close = std::min(text.find("</trkpt>", at), text.size());
+    const std::size_t close = std::min({text.find("</trkpt>", at), text.find("<trkpt", at + 1), text.size()});
     const std::string_view point = std::string_view(text).substr(at, close - at);
     const auto latitude = attribute(point, "lat"), longitude = attribute(point, "lon");
     if (!latitude || !longitude) throw vo::Error(where, "has no place", "lat=\"...\" lon=\"...\", degrees");

@@ -129,15 +129,21 @@ class AccuracyTest(unittest.TestCase):
         return as_found, evaluate("30 % of the matches random")
 
     def test_drift_is_corrected(self):
-        for reference, query in (("corridor_a", "corridor_b"), ("street_day", "street_night")):
-            with self.subTest(query=query):
-                as_found, with_random = self.corrected(reference, query)
-                self.assertGreater(as_found["ape_odometry_end_m"], 8)
-                self.assertLessEqual(as_found["ape_rmse_m"], 1)
-                self.assertLessEqual(as_found["ape_end_m"], 1.5)
-                self.assertLessEqual(with_random["ape_rmse_m"], 1.5)
-                # Not above 0.95 as well: how far aside a walker keeps is one draw a walk, and here a small one.
-                self.assertGreaterEqual(as_found["ape_inside_90"], 0.85)
+        inside = []
+        for a, b in (("corridor_a", "corridor_b"), ("street_day", "street_night")):
+            for reference, query in ((a, b), (b, a)):
+                with self.subTest(query=query):
+                    as_found, with_random = self.corrected(reference, query)
+                    if reference == a:
+                        self.assertGreater(as_found["ape_odometry_end_m"], 8)
+                    self.assertLessEqual(as_found["ape_rmse_m"], 1)
+                    self.assertLessEqual(as_found["ape_end_m"], 1.5)
+                    self.assertLessEqual(with_random["ape_rmse_m"], 1.5)
+                    inside.append(as_found["ape_inside_90"])
+                    self.assertGreaterEqual(inside[-1], 0.85)
+        # All together not above 0.95, but one walk may be: how far aside and ahead of its matches a walker keeps is
+        # one draw for the whole of it.
+        self.assertLessEqual(statistics.mean(inside), 0.95)
 
     def test_two_walks_of_drifting_odometry_agree(self):
         """The reference's poses are its own odometry: the same place must have the same coordinates."""

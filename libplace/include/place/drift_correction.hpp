@@ -44,7 +44,7 @@ struct DriftCorrectionOptions {
   double match_least_m = 0.15;      ///< of the surest match along the path, metres
   double match_doubtful_m = 3.5;    ///< the same at score 0, beside `match_least_m`; fades with ...
   double match_score = 1;           ///< ... this score, in its unit
-  double aside_m = 0.35;            ///< across the path: two walkers do not tread the same line, metres
+  double aside_m = 0.25;            ///< across the path: two walkers do not tread the same line, metres
   double match_heading_rad = 0.15;  ///< of a match's heading; far larger errors are let go
   double match_correlation_m = 3;   ///< matches closer than this err alike, metres of the way
   double steady_along_m = 0.1;      ///< what all matches err by along the path, metres; ...

@@ -64,6 +64,12 @@ TEST(Geographic, SaysWhatIsWrongWithATrack) {
                     vo::Error, "b.gpx: track point 1: has no place");
   EXPECT_THROW_WITH(place::read_track(folder.write("c.gpx", "<trkpt lat=\"1\" lon=\"2\"></trkpt>")),
                     vo::Error, "c.gpx: track point 1: has no time");
+  // A point closed at once does not take the next one's time.
+  EXPECT_THROW_WITH(place::read_track(folder.write("self_closed.gpx",
+                                                   "<trkpt lat=\"1\" lon=\"2\"/><trkpt lat=\"1\" lon=\"2\">"
+                                                   "<time>2024-01-01T00:00:00Z</time></trkpt>")),
+                    vo::Error, "self_closed.gpx: track point 1: has no time");
+  EXPECT_THROW_WITH(place::read_track("nowhere.gpx"), vo::Error, "nowhere.gpx: cannot be read");
   EXPECT_THROW_WITH(place::read_track(folder.write("d.csv", "time_s,lat_deg\n1,2\n")), vo::Error,
                     "longitude_deg");
   EXPECT_THROW_WITH(place::read_track(folder.write("e.csv", "time_s,lat_deg,lon_deg\n1,2,3\n1,2,3\n")),
