@@ -54,54 +54,13 @@ std::size_t last_known(std::span<const std::optional<double>> displacement, std:
   return end;
 }
 
-/// The frames before `end` among which `wanted` are known, or all there are.
+/// The frames before `end` among which `wanted` are known, or all there are: further back after a long loss.
 FrameRange known_before(std::span<const std::optional<double>> displacement, std::size_t end,
                         std::size_t wanted) {
   FrameRange before{end, end};
   for (std::size_t found = 0; before.begin > 0 && found < wanted; --before.begin)
     found += displacement[before.begin - 1] ? 1 : 0;
   return before;
-}
-
-/// What alignment error, by the relation learned `before`, says of the way `after`, over what `way` has.
-std::optional<double> read_relation(const MotionEvidence& evidence, FrameRange before, FrameRange after,
-                                    std::span<const std::optional<double>> way,
-                                    std::span<const std::optional<double>> tied,
-                                    const SegmentTieOptions& options) {
-  const std::vector<double> predicted =
-      predict_displacement(*evidence.errors, evidence.errors_known, tied, before, after, options.relation);
-  double by_relation = 0, by_track = 0;
-  for (std::size_t i = 0; i < predicted.size(); ++i) {
-    const std::size_t frame = after.begin + i;
-    if (!evidence.errors_known[frame] || !way[frame]) continue;
-    by_relation += predicted[i];
-    by_track += *way[frame];
-  }
-  if (!(by_relation > 0 && by_track > 0)) return std::nullopt;
-  return by_relation / by_track;
-}
-
-/// Root mean square of the logarithm of what the relation reads over losses of so many frames that are made
-/// up where all is known; none where too little is.
-std::optional<double> relation_error(const MotionEvidence& evidence, std::size_t lost, std::size_t window,
-                                     std::span<const std::optional<double>> tied,
-                                     const SegmentTieOptions& options) {
-  constexpr std::size_t kFew = 3, kMost = 20;
-  const std::size_t step = std::max<std::size_t>(window / 8, 1);
-  double square = 0;
-  std::size_t count = 0;
-  for (std::size_t end = last_known(tied, tied.size()); end > lost + 3 * step && count < kMost; end -= step) {
-    const std::size_t found = end - step, begin = found - lost;
-    const FrameRange after{found, std::min(found + window, last_known(tied, tied.size()))};
-    const FrameRange before = known_before(tied, begin, window);
-    if (before.size() < 2 * step) break;
-    const std::optional<double> ratio = read_relation(evidence, before, after, tied, tied, options);
-    if (!ratio) continue;
-    square += std::pow(std::log(*ratio), 2);
-    ++count;
-  }
-  if (count < kFew) return std::nullopt;
-  return std::sqrt(square / static_cast<double>(count));
 }
 
 }  // namespace
@@ -128,18 +87,22 @@ std::optional<SegmentTie> tie_by_relation(const MotionEvidence& evidence, FrameR
                                           std::span<const std::optional<double>> way,
                                           std::span<const std::optional<double>> tied,
                                           const SegmentTieOptions& options) {
-  constexpr double kLeastSigma = 0.02;
   if (evidence.errors == nullptr) return std::nullopt;
   const FrameRange first{run.begin, run.begin + 1};
   const FrameRange near = frames_around(evidence.time_s, first, options.relation_window_s);
   const FrameRange after{run.begin, std::min(run.end, near.end)};
-  const std::size_t wanted = near.end - run.begin;
-  const std::optional<double> scale =
-      read_relation(evidence, known_before(tied, run.begin, wanted), after, way, tied, options);
-  if (!scale) return std::nullopt;
-  const std::size_t lost = run.begin - last_known(tied, run.begin);
-  const std::optional<double> sigma = relation_error(evidence, lost, wanted, tied, options);
-  return SegmentTie{*scale, std::max(sigma.value_or(options.usual_relation_sigma), kLeastSigma)};
+  const FrameRange before = known_before(tied, run.begin, near.end - run.begin);
+  const std::vector<double> predicted =
+      predict_displacement(*evidence.errors, evidence.errors_known, tied, before, after, options.relation);
+  double by_relation = 0, by_track = 0;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    const std::size_t frame = after.begin + i;
+    if (!evidence.errors_known[frame] || !way[frame]) continue;
+    by_relation += predicted[i];
+    by_track += *way[frame];
+  }
+  if (!(by_relation > 0 && by_track > 0)) return std::nullopt;
+  return SegmentTie{by_relation / by_track, options.relation_sigma};
 }
 
 std::optional<SegmentTie> combined(const std::optional<SegmentTie>& a, const std::optional<SegmentTie>& b) {

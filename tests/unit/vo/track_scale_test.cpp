@@ -112,7 +112,9 @@ TEST(TieTrackScale, TiesSegmentsByAlignmentErrorWithoutStepsOrGround) {
   KnownMotion walk = known_motion(60, 1, 1.8);
   walk.lose(500, 560, 4);
   walk.lose(900, 930, 0.1);
-  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), unsmoothed());
+  vo::TrackScaleOptions options = unsmoothed();
+  options.tie.relation_sigma = 0.001;  // there is but one scene, and speed swings
+  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), options);
   EXPECT_FALSE(tied.metric);
   EXPECT_FALSE(tied.by_ground);
   for (const std::size_t i : {700U, 1200U}) {

@@ -20,12 +20,12 @@ struct SegmentTie {
 
 /// Settings of the functions below.
 struct SegmentTieOptions {
-  double speed_s = 1;             ///< seconds that speed is taken over, either side of the loss
-  double relation_window_s = 20;  ///< seconds that alignment error is read over, either side of it
-  /// Of the logarithms, where what is tied before is too short to tell. From one scene of a drive to the next
-  /// alignment error read 0.6 of the way.
-  double usual_speed_sigma = 0.3;
-  double usual_relation_sigma = 0.5;
+  double speed_s = 1;              ///< seconds that speed is taken over, either side of the loss
+  double usual_speed_sigma = 0.3;  ///< of its logarithm's change, where what is tied is too short to tell
+  double relation_window_s = 20;   ///< seconds that alignment error is read over, either side of the loss
+  /// Of the logarithm of what it reads: 0.6 of the way from one scene of a drive to the next, and a turn
+  /// seems as fast as a straight. Where nothing was lost nothing of this shows, so it is not measured.
+  double relation_sigma = 0.5;
   LearnedRelationOptions relation;
 };
 
