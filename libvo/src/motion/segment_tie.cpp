@@ -63,6 +63,18 @@ FrameRange known_before(std::span<const std::optional<double>> displacement, std
   return before;
 }
 
+/// The frames whose alignment error says something of the way: in a turn the picture changes without any.
+std::vector<bool> usable_errors(const MotionEvidence& evidence) {
+  constexpr double kTurning_rad_s = 0.1;  // at 10 m/s it shifts points 50 m off as far as the way does
+  std::vector<bool> usable = evidence.errors_known;
+  for (std::size_t i = 1; i < usable.size() && evidence.track != nullptr; ++i) {
+    const std::optional<double>& turn_rad = evidence.track->frames[i].turn_rad;
+    const double length_s = evidence.time_s[i] - evidence.time_s[i - 1];
+    if (turn_rad && std::abs(*turn_rad) > kTurning_rad_s * length_s) usable[i] = false;
+  }
+  return usable;
+}
+
 }  // namespace
 
 std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRange run,
@@ -92,12 +104,13 @@ std::optional<SegmentTie> tie_by_relation(const MotionEvidence& evidence, FrameR
   const FrameRange near = frames_around(evidence.time_s, first, options.relation_window_s);
   const FrameRange after{run.begin, std::min(run.end, near.end)};
   const FrameRange before = known_before(tied, run.begin, near.end - run.begin);
+  const std::vector<bool> usable = usable_errors(evidence);
   const std::vector<double> predicted =
-      predict_displacement(*evidence.errors, evidence.errors_known, tied, before, after, options.relation);
+      predict_displacement(*evidence.errors, usable, tied, before, after, options.relation);
   double by_relation = 0, by_track = 0;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     const std::size_t frame = after.begin + i;
-    if (!evidence.errors_known[frame] || !way[frame]) continue;
+    if (!usable[frame] || !way[frame]) continue;
     by_relation += predicted[i];
     by_track += *way[frame];
   }
