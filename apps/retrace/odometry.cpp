@@ -41,13 +41,19 @@ struct OdometryOptions {
   bool close_loops = false;
 };
 
+/// What displacements are measured in: without steps, visual odometry has a unit of its own.
+std::string_view unit_of(const vo::Walk& walk, const vo::WalkMotion& motion) {
+  if (motion.metric) return "m";
+  return walk.track ? "units" : "frames";
+}
+
 std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
   std::string csv =
       "frame,time_s,displacement,unit,source,orientation_deg,dx_px,matches,heading_deg,"
       "step_signal,step_threshold,reliable,x_m,y_m,displacement_sigma\n";
   const vo::PedestrianMotion& gait = *motion.pedestrian;
   const std::vector<double>& signal = vo::step_signal(gait);
-  const std::string_view unit = motion.metric ? "m" : "frames";
+  const std::string_view unit = unit_of(walk, motion);
   for (std::size_t i = 0; i < walk.frames(); ++i) {
     const vo::FrameMotion& tracked = walk.tracked[i];
     const vo::FrameDisplacement& moved = motion.frames[i];
@@ -115,10 +121,10 @@ constexpr std::string_view name_of(vo::StepSignal signal) {
 
 ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double step_length_m) {
   const vo::PedestrianMotion& motion = *walked.pedestrian;
-  double distance_m = 0;
+  double distance = 0;
   std::map<std::string, std::size_t> sources;
   for (const vo::FrameDisplacement& frame : walked.frames) {
-    distance_m += frame.value;
+    distance += frame.value;
     if (frame.source != vo::DisplacementSource::kNone) ++sources[std::string(vo::name_of(frame.source))];
   }
   ordered_json json{
@@ -131,7 +137,9 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
       {"steps_bridged", motion.detection.bridged},
       {"frames_bridged", motion.signal.bridged},
       {"step_length_m", step_length_m},
-      {"distance_m", distance_m},
+      {"distance", distance},
+      {"unit", unit_of(walk, walked)},
+      {"distance_m", nullptr},
       {"frames_by_source", sources},
       {"delta_min", nullptr},
       {"warnings", walk.warnings},
@@ -141,16 +149,16 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
     json["activity_s"][std::string(name_of(activity))] =
         std::ranges::count(motion.activity, activity, &vo::ActivitySecond::activity);
   }
+  if (walked.metric) json["distance_m"] = distance;
   if (motion.detection.delta_min_deg) json["delta_min"] = *motion.detection.delta_min_deg;
   return json;
 }
 
-/// By the source asked for; by steps alone where the others tell nothing, or give no metres.
+/// By the source asked for; by steps alone where the others tell nothing.
 vo::WalkMotion walked_motion(const vo::Walk& walk, const Settings& settings) {
   if (settings.sampling.sampling.motion == vo::MotionSource::kHybrid) {
     try {
-      vo::WalkMotion motion = vo::walk_motion(walk, vo::MotionSource::kHybrid, settings.sampling.motion);
-      if (!motion.trajectory.empty()) return motion;
+      return vo::walk_motion(walk, vo::MotionSource::kHybrid, settings.sampling.motion);
     } catch (const vo::Error& error) {
       spdlog::warn("{}; steps alone are used", error.what());
     }
@@ -217,8 +225,9 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   fmt::print("{}\n", walk.source);
   row("steps", std::to_string(motion.detection.steps.size()),
       fmt::format("{} of them bridged", motion.detection.bridged));
-  row("distance", fmt::format("{:.1f} m", json["distance_m"].get<double>()),
-      fmt::format("steps of {:.3f} m", pedestrian.step_length.length_m));
+  row("distance", fmt::format("{:.1f} {}", json["distance"].get<double>(), json["unit"].get<std::string>()),
+      walked.metric ? fmt::format("steps of {:.3f} m", pedestrian.step_length.length_m)
+                    : "no steps, so no metres: see --camera-height-m");
   row("duration", fmt::format("{:.1f} s", walk.time_s.back()),
       fmt::format("{} frames, {} with too few points", walk.frames(), motion.signal.bridged));
   if (options.close_loops) {

@@ -123,6 +123,9 @@ void add_odometry_options(CLI::App& app, Settings& s) {
   add(app, kOdometry, "--camera", s.camera, "calibration file of OpenCV (YAML), instead of --fov-deg");
   add(app, kOdometry, "--step-length", pedestrian.step_length.length_m, "metres, of an average step")
       ->check(CLI::PositiveNumber);
+  add(app, kOdometry, "--camera-height-m", s.sampling.motion.hybrid.scale.camera_height_m,
+      "metres above the ground, known of a vehicle's camera: gives hybrid motion its metres without steps")
+      ->check(CLI::PositiveNumber);
   add_choice(app, kOdometry, "--step-length-model", pedestrian.step_length.model,
              {{"cadence", vo::StepLengthModel::kCadence}, {"fixed", vo::StepLengthModel::kFixed}},
              "in proportion to cadence about --step-length, or every step alike [PVO 5.3]");

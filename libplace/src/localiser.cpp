@@ -181,7 +181,7 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
                     "no --spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
-  sampled.trajectory = std::move(motion.trajectory);
+  if (motion.metric) sampled.trajectory = std::move(motion.trajectory);
   if (reference != nullptr && motion.metric != route.sampling.metric)
     to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
   if (motion.visual) {

@@ -52,6 +52,18 @@ std::vector<bool> steps_seen(const PedestrianMotion& motion) {
   return seen;
 }
 
+/// False where steps were found during less than half of the time that the camera is seen to move: the sway
+/// of a car looks like a few.
+bool on_foot(const PedestrianMotion& motion, const Walk& walk, const std::vector<bool>& standing) {
+  std::size_t moving = 0, stepping = 0;
+  for (std::size_t i = 1; i < walk.frames(); ++i) {
+    if (!walk.track || !walk.track->frames[i].valid || standing[i]) continue;
+    ++moving;
+    stepping += motion.displacement_m[i] > 0 ? 1 : 0;
+  }
+  return !motion.detection.steps.empty() && 2 * stepping >= moving;
+}
+
 WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& options) {
   WalkMotion motion;
   motion.visual = visual_motion(walk, options.visual);
@@ -62,7 +74,7 @@ WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& op
                           .standing = motion.visual->standing};
   if (with_steps) {
     motion.pedestrian = pedestrian_motion(walk, options.pedestrian);
-    if (!motion.pedestrian->detection.steps.empty()) {
+    if (on_foot(*motion.pedestrian, walk, motion.visual->standing)) {
       evidence.steps_m = motion.pedestrian->displacement_m;
       evidence.steps_known = steps_seen(*motion.pedestrian);
     }
@@ -70,7 +82,7 @@ WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& op
   HybridMotion hybrid = hybrid_motion(evidence, options.hybrid);
   motion.frames = std::move(hybrid.frames);
   motion.metric = hybrid.metric;
-  if (motion.metric && motion.pedestrian)
+  if (motion.pedestrian)
     motion.trajectory =
         dead_reckon(displacements(motion), motion.pedestrian->signal.heading_rad, walk.time_s);
   return motion;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -115,6 +116,30 @@ TEST_F(Failures, TheHybridsSpeedIsBetterThanEitherSources) {
               of_hybrid, of_errors, of_track);
   EXPECT_LT(of_hybrid, of_errors);
   EXPECT_LT(of_hybrid, of_track);
+}
+
+TEST_F(Failures, WithoutStepsTheGroundKeepsTheUnit) {
+  vo::Walk stepless = walk;
+  stepless.tracked.clear();
+  const vo::WalkMotion motion = vo::walk_motion(stepless, vo::MotionSource::kHybrid, settings);
+  EXPECT_FALSE(motion.metric);
+  // Metres to a unit over each quarter of the walk; in each a failure begins another unit of odometry's own.
+  const std::vector<double> moved = vo::displacements(motion);
+  std::vector<double> scales;
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    double true_way_m = 0, way = 0;
+    for (std::size_t i = quarter * moved.size() / 4; i < (quarter + 1) * moved.size() / 4; ++i) {
+      if (motion.frames[i].source != vo::DisplacementSource::kTrack) continue;
+      true_way_m += true_m[i];
+      way += moved[i];
+    }
+    if (way > 0) scales.push_back(true_way_m / way);
+    std::printf("metres to a unit: %.3f\n", scales.empty() ? 0 : scales.back());
+  }
+  ASSERT_GE(scales.size(), 3U);
+  const auto [least, most] = std::ranges::minmax(scales);
+  // A height is good to 3 % where much ground is seen; a stretch between two failures here has some seconds.
+  EXPECT_LT(most / least, 1.15);
 }
 
 TEST_F(Failures, TheHybridIsContinuous) {

@@ -273,7 +273,7 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
   if (frames.time_s.size() < 2) return {};
   Chart chart{.title = "speed",
               .x_title = "time, s",
-              .y_title = "speed, m/s",
+              .y_title = fmt::format("speed, {}/s", unit_of(walk)),
               .series = {{.name = "odometry",
                           .x = frames.time_s,
                           .y = over_half_a_second(frames.displacement, frames.time_s),
@@ -321,8 +321,8 @@ std::optional<Chart> matches_chart(const OdometryView& walk) {
 std::optional<Chart> trajectory_chart(const OdometryView& walk) {
   if (walk.trajectory.size() < 2) return {};
   Chart chart{.title = "trajectory",
-              .x_title = "x, m",
-              .y_title = "y, m",
+              .x_title = fmt::format("x, {}", unit_of(walk)),
+              .y_title = fmt::format("y, {}", unit_of(walk)),
               .equal = true,
               .zoomable = true,
               .size = "tall"};

@@ -19,9 +19,11 @@ void put_headlines(Page& page, const OdometryView& walk) {
                                      : ""}};
   if (walk.truth != nullptr && !walk.truth->steps.empty())
     numbers.push_back({"True steps", walk.truth->steps, ""});
-  if (summary.contains("distance_m")) {
-    numbers.push_back({"Distance", fmt::format("{:.1f} m", summary["distance_m"].get<double>()),
-                       fmt::format("steps of {:.3f} m on average", summary["step_length_m"].get<double>())});
+  if (summary.contains("distance")) {
+    numbers.push_back({"Distance", fmt::format("{:.1f} {}", summary["distance"].get<double>(), unit_of(walk)),
+                       unit_of(walk) == "m" ? fmt::format("steps of {:.3f} m on average",
+                                                          summary["step_length_m"].get<double>())
+                                            : "nothing tells metres"});
     numbers.push_back({"Duration", fmt::format("{:.1f} s", summary["duration_s"].get<double>()),
                        fmt::format("{} frames", summary["frames"].dump())});
     numbers.push_back({"Bridged", summary["frames_bridged"].dump(), "frames with too few matches"});
@@ -66,7 +68,7 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
   put_headlines(page, walk);
   page.chart("Trajectory", trajectory_chart(walk),
              truth == nullptr
-                 ? "Metres from the first frame, which looks along y. The square is the start."
+                 ? "From the first frame, which looks along y. The square is the start."
                  : "Metres. The odometry is laid on the truth's first five metres; the square is the start.");
   put_errors(page, walk);
   page.chart(
@@ -77,7 +79,7 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
   page.chart(
       "Speed", speed_chart(walk),
       "From the displacement of the half second about each frame. Unshaded, it is visual odometry's, in "
-      "metres by the steps around [SSS Fig. 9].");
+      "metres by the steps around, or in one unit by the ground [SSS Fig. 9].");
   page.chart("Heading", heading_chart(walk), "");
   page.chart("Matches", matches_chart(walk), "Points followed over the tracking window.");
   put_settings(page, folder / "config.toml");

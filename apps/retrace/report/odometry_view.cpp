@@ -19,6 +19,10 @@ std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
 
 }  // namespace
 
+std::string unit_of(const OdometryView& walk) {
+  return walk.summary.value("unit", "m");
+}
+
 OdometryView read_odometry(const fs::path& folder) {
   OdometryView walk;
   walk.trajectory = vo::read_tum(folder / "trajectory.tum");

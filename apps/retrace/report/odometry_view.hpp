@@ -32,6 +32,9 @@ struct OdometryView {
   const OdometryTruth* truth = nullptr;
 };
 
+/// What displacements and positions are measured in: "m", or where nothing tells metres "units" or "frames".
+std::string unit_of(const OdometryView& walk);
+
 /// Reads a folder written by `retrace odometry`; what is not there stays empty.
 OdometryView read_odometry(const std::filesystem::path& folder);
 

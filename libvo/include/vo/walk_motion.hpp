@@ -19,10 +19,10 @@ struct WalkMotionOptions {
 /// One displacement for each frame of a walk, whatever it comes from.
 struct WalkMotion {
   std::vector<FrameDisplacement> frames;
-  bool metric = false;                         ///< metres; otherwise frames at mean walking speed
+  bool metric = false;                         ///< metres; otherwise as `HybridMotion` and `VisualMotion` say
   std::optional<VisualMotion> visual;          ///< where alignment error was asked for
   std::optional<PedestrianMotion> pedestrian;  ///< where steps were asked for
-  Trajectory trajectory;  ///< from (0, 0), heading 0; empty unless metres and headings are known
+  Trajectory trajectory;  ///< from (0, 0), heading 0, in that unit; empty unless headings are known
 };
 
 /// Has `read_walk` keep what `walk_motion` needs for a source.
@@ -31,8 +31,9 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// The displacement of every frame by one source, or by all of them (`hybrid_motion`).
 ///
 /// `kHybrid` takes what the walk was read with, and does without steps where the frame rate is too low to see
-/// any. `kFile` is the same without steps, with the track of a file. `kVisualOdometry` is the track as it is:
-/// nothing where it is lost, each segment in a unit of its own.
+/// any, or where they were found during less than half of the time that the camera is seen to move. `kFile`
+/// is the same without steps, with the track of a file. `kVisualOdometry` is the track as it is: nothing
+/// where it is lost, each segment in a unit of its own.
 ///
 /// Throws `std::invalid_argument` for `kNone`, or a walk that was not read with what the source needs;
 /// `vo::Error` naming a walk that shows no motion to learn from. A walk without steps has, by `kSteps`,

@@ -54,8 +54,8 @@ void check(const PoseSeries& series, std::span<const double> time_s,
 DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const double> time_s,
                                       const ExternalTrajectoryOptions& options) {
   check(series, time_s, options);
-  DisplacementTrack track{
-      .scale = options.metric ? TrackScale::kMetric : TrackScale::kCommon, .frames = {}, .poses = {}};
+  DisplacementTrack track;
+  track.scale = options.metric ? TrackScale::kMetric : TrackScale::kCommon;
   int segment = 0;
   bool any = false;
   for (std::size_t i = 0; i < time_s.size(); ++i) {

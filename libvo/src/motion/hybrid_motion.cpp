@@ -152,7 +152,7 @@ HybridMotion hybrid_motion(const MotionEvidence& evidence, const HybridMotionOpt
   HybridMotion motion;
   motion.frames.resize(count);
 
-  ScaledTrack track{Displacements(count), false};
+  ScaledTrack track{.displacement = Displacements(count)};
   if (evidence.track != nullptr) track = tie_track_scale(evidence, options.scale);
   const Displacements steps = steps_of(evidence);
   const bool has_steps = !evidence.steps_m.empty();
@@ -170,9 +170,9 @@ HybridMotion hybrid_motion(const MotionEvidence& evidence, const HybridMotionOpt
       relative_error(evidence.time_s, track.displacement, steps).value_or(kUsualStepsError);
   const double errors_error =
       relative_error(evidence.time_s, known, errors_everywhere).value_or(kUsualAlignmentError);
-  const double scale_error = track.metric && has_steps
-                                 ? steps_error / std::sqrt(options.scale.steps_window_s)
-                                 : errors_error / std::sqrt(options.scale.relation_window_s);
+  double scale_error = errors_error / std::sqrt(options.scale.tie.relation_window_s);
+  if (track.by_ground) scale_error = kUsualGroundError;
+  if (track.metric && has_steps) scale_error = steps_error / std::sqrt(options.scale.steps_window_s);
 
   for (std::size_t i = 1; i < count; ++i) {
     FrameDisplacement& frame = motion.frames[i];

@@ -60,6 +60,7 @@ class MonocularVo::Impl {
     KltPyramid pyramid = klt_pyramid(grey_, options_.klt);
     track_.frames.push_back({.valid = first, .segment = segment_});
     track_.poses.emplace_back();
+    track_.heights.emplace_back();
     if (first) {
       start();
     } else if (gap) {
@@ -246,7 +247,23 @@ class MonocularVo::Impl {
     place_landmarks(map_, map_options_);
     adjust_window(map_, map_options_);
     pose_ = map_.keyframes.back().pose;
+    track_.heights.back() = heights_above_ground();
     after_keyframe();
+  }
+
+  /// Of the last keyframe, above the landmarks that it sees.
+  [[nodiscard]] std::vector<double> heights_above_ground() const {
+    constexpr double kLongWay = 0.5;  // of the median depth: bounce and sway hardly turn its direction
+    cv::Vec3d travel{0, 0, 0};
+    for (const Keyframe& keyframe : std::views::reverse(map_.keyframes)) {
+      travel = pose_.position - keyframe.pose.position;
+      if (cv::norm(travel) >= kLongWay * median_depth_) break;
+    }
+    if (cv::norm(travel) < kLongWay * median_depth_) return {};
+    std::vector<cv::Vec3d> points;
+    for (const Landmark& landmark : map_.landmarks)
+      if (landmark.followed && landmark.position) points.push_back(*landmark.position);
+    return heights_above(pose_, travel, points, options_.ground);
   }
 
   void after_keyframe() {

@@ -40,9 +40,38 @@ FrameRange overlap(FrameRange a, FrameRange b) {
   return {std::max(a.begin, b.begin), std::max(std::max(a.begin, b.begin), std::min(a.end, b.end))};
 }
 
-/// One range in metres, each frame by the seconds around it; false if steps tell no scale or contradict it.
+/// All heights above the ground that are known of a range.
+std::vector<double> heights_in(const DisplacementTrack& track, FrameRange range) {
+  std::vector<double> all;
+  for (std::size_t i = range.begin; i < range.end && !track.heights.empty(); ++i)
+    all.insert(all.end(), track.heights[i].begin(), track.heights[i].end());
+  return all;
+}
+
+/// Takes the drift of scale out of a run: each frame by the height of the camera in the seconds around it,
+/// against that of the whole run. False, and nothing done, where too little ground is seen.
+bool steady_by_ground(const MotionEvidence& evidence, const TrackScaleOptions& options, FrameRange run,
+                      Displacements& way) {
+  constexpr double kDrift = 0.2;  // of the logarithm of scale within a run, standard deviation
+  const std::optional<double> of_run = ground_height(heights_in(*evidence.track, run), {}, options.ground);
+  if (!of_run) return false;
+  double height = *of_run;
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    const FrameRange near = frames_around(evidence.time_s, {i, i + 1}, options.ground_window_s / 2);
+    if (i == run.begin || !evidence.track->heights[i].empty()) {
+      height = ground_height(heights_in(*evidence.track, overlap(near, run)), ExpectedHeight{*of_run, kDrift},
+                             options.ground)
+                   .value_or(*of_run);
+    }
+    if (way[i]) *way[i] *= *of_run / height;
+  }
+  return true;
+}
+
+/// One range in metres, each frame by the steps within `window_s` around it; false if steps tell no scale or
+/// contradict it.
 bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& options, FrameRange run,
-                    const Displacements& track, Displacements& scaled) {
+                    double window_s, const Displacements& track, Displacements& scaled) {
   constexpr double kLeast_m = 1;  // of steps, to tell a scale by
   // A step that was not found, like the first of a walk, has no length to compare.
   std::vector<bool> stepping(evidence.steps_known);
@@ -58,7 +87,7 @@ bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& opt
   double difference_m = 0, walked_m = 0;
   for (std::size_t i = run.begin; i < run.end; ++i) {
     if (!track[i]) continue;
-    const FrameRange near = frames_around(evidence.time_s, {i, i + 1}, options.steps_window_s / 2);
+    const FrameRange near = frames_around(evidence.time_s, {i, i + 1}, window_s / 2);
     scaled[i] = *track[i] * ratio(overlap(near, run)).value_or(*of_run);
   }
   for (std::size_t i = run.begin; i < run.end;) {
@@ -73,27 +102,36 @@ bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& opt
   return false;
 }
 
-/// The factor that brings a run to the unit of what is tied before it.
-std::optional<double> scale_by_relation(const MotionEvidence& evidence, const TrackScaleOptions& options,
-                                        FrameRange run, const Displacements& track,
-                                        const Displacements& tied) {
-  if (evidence.errors == nullptr) return std::nullopt;
-  const FrameRange first{run.begin, run.begin + 1};
-  const FrameRange near = frames_around(evidence.time_s, first, options.relation_window_s);
-  const FrameRange after{run.begin, std::min(run.end, near.end)};
-  // As many tied frames as the window has, from further back if the loss was long.
-  const std::size_t wanted = near.end - run.begin;
-  FrameRange before{run.begin, run.begin};
-  for (std::size_t found = 0; before.begin > 0 && found < wanted; --before.begin)
-    found += tied[before.begin - 1] ? 1 : 0;
-  const std::vector<double> predicted =
-      predict_displacement(*evidence.errors, evidence.errors_known, tied, before, after, options.relation);
-  double by_relation = 0;
-  for (std::size_t i = 0; i < predicted.size(); ++i)
-    by_relation += evidence.errors_known[after.begin + i] ? predicted[i] : 0;
-  const double by_track = sum(track, after, evidence.errors_known);
-  if (!(by_relation > 0 && by_track > 0)) return std::nullopt;
-  return by_relation / by_track;
+/// Each run by the height of the camera, which is expected to be where speed and alignment error have it; by
+/// those alone where too little ground is seen.
+ScaledTrack tie_without_steps(const MotionEvidence& evidence, const TrackScaleOptions& options,
+                              const std::vector<FrameRange>& runs, const Displacements& way) {
+  ScaledTrack tied{.displacement = Displacements(way.size())};
+  std::optional<double> camera_height;  // in the unit of what is tied
+  for (const FrameRange& run : runs) {
+    std::optional<SegmentTie> tie;
+    if (&run == &runs.front()) {
+      tie = SegmentTie{};
+    } else {
+      tie = combined(tie_by_speed(evidence.time_s, run, way, tied.displacement, options.tie),
+                     tie_by_relation(evidence, run, way, tied.displacement, options.tie));
+    }
+    if (!tie) continue;
+    std::optional<ExpectedHeight> expected;
+    if (camera_height) expected = {*camera_height / tie->scale, tie->sigma};
+    const std::optional<double> height =
+        ground_height(heights_in(*evidence.track, run), expected, options.ground);
+    if (height && !camera_height) camera_height = *height * tie->scale;
+    const double scale = height ? *camera_height / *height : tie->scale;
+    for (std::size_t i = run.begin; i < run.end; ++i)
+      if (way[i]) tied.displacement[i] = scale * *way[i];
+  }
+  tied.by_ground = camera_height.has_value();
+  if (!camera_height || !options.camera_height_m) return tied;
+  for (std::optional<double>& displacement : tied.displacement)
+    if (displacement) *displacement *= *options.camera_height_m / *camera_height;
+  tied.metric = true;
+  return tied;
 }
 
 }  // namespace
@@ -131,11 +169,12 @@ std::vector<std::optional<double>> smoothed_displacement(const DisplacementTrack
 ScaledTrack tie_track_scale(const MotionEvidence& evidence, const TrackScaleOptions& options) {
   check(evidence);
   if (evidence.track == nullptr) throw std::invalid_argument("tie_track_scale: a track expected");
-  if (!(options.steps_window_s > 0 && options.relation_window_s > 0 && options.max_disagreement > 0))
+  if (!(options.steps_window_s > 0 && options.ground_window_s > 0 && options.tie.relation_window_s > 0 &&
+        options.max_disagreement > 0))
     throw std::invalid_argument("tie_track_scale: windows and disagreement above 0 expected");
   const DisplacementTrack& track = *evidence.track;
-  const Displacements displacement = smoothed_displacement(track, evidence.time_s, options.smoothing_s);
-  if (track.scale == TrackScale::kMetric) return {displacement, true};
+  Displacements way = smoothed_displacement(track, evidence.time_s, options.smoothing_s);
+  if (track.scale == TrackScale::kMetric) return {.displacement = way, .metric = true};
 
   std::vector<FrameRange> runs;
   if (track.scale == TrackScale::kCommon) {
@@ -146,20 +185,14 @@ ScaledTrack tie_track_scale(const MotionEvidence& evidence, const TrackScaleOpti
         runs.push_back(run);
     }
   }
-  ScaledTrack tied{Displacements(track.size()), false};
-  for (const FrameRange& run : runs) {
-    if (!evidence.steps_m.empty() && scale_by_steps(evidence, options, run, displacement, tied.displacement))
-      tied.metric = true;
-  }
-  if (tied.metric || !evidence.steps_m.empty()) return tied;
-  bool first = true;
-  for (const FrameRange& run : runs) {
-    const std::optional<double> scale =
-        first ? 1.0 : scale_by_relation(evidence, options, run, displacement, tied.displacement);
-    if (!scale) continue;
-    first = false;
-    for (std::size_t i = run.begin; i < run.end; ++i)
-      if (displacement[i]) tied.displacement[i] = *scale * *displacement[i];
+  std::vector<bool> steady;
+  for (const FrameRange& run : runs) steady.push_back(steady_by_ground(evidence, options, run, way));
+  if (evidence.steps_m.empty()) return tie_without_steps(evidence, options, runs, way);
+
+  ScaledTrack tied{.displacement = Displacements(track.size())};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double window_s = steady[i] ? options.steady_steps_window_s : options.steps_window_s;
+    tied.metric |= scale_by_steps(evidence, options, runs[i], window_s, way, tied.displacement);
   }
   return tied;
 }

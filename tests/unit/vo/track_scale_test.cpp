@@ -108,16 +108,79 @@ TEST(TieTrackScale, FollowsAScaleThatDrifts) {
     EXPECT_NEAR(*tied.displacement[i], walk.metres[i], 0.02 * walk.metres[i]) << i;
 }
 
-TEST(TieTrackScale, TiesSegmentsByAlignmentErrorWithoutSteps) {
+TEST(TieTrackScale, TiesSegmentsByAlignmentErrorWithoutStepsOrGround) {
   KnownMotion walk = known_motion(60, 1, 1.8);
   walk.lose(500, 560, 4);
   walk.lose(900, 930, 0.1);
-  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), unsmoothed());
+  vo::TrackScaleOptions options = unsmoothed();
+  options.tie.relation_sigma = 0.001;  // there is but one scene, and speed swings
+  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), options);
   EXPECT_FALSE(tied.metric);
+  EXPECT_FALSE(tied.by_ground);
   for (const std::size_t i : {700U, 1200U}) {
     // The relation is exact here but for the bins it is averaged in and the least over five separations.
     EXPECT_NEAR(*tied.displacement[i], walk.metres[i], 0.03 * walk.metres[i]) << i;
   }
+}
+
+/// Of a camera 1.6 m above the ground, every fifth frame; in the unit of each segment.
+void see_ground(KnownMotion& walk) {
+  walk.track.heights.resize(walk.frames());
+  for (std::size_t i = 5; i < walk.frames(); i += 5) {
+    const double metres_per_unit = walk.metres[i] / walk.track.frames[i].displacement;
+    walk.track.heights[i] = {1.6 / metres_per_unit, 0.3 / metres_per_unit, 1.61 / metres_per_unit};
+  }
+}
+
+TEST(TieTrackScale, TiesSegmentsByTheGroundWithoutSteps) {
+  KnownMotion walk = known_motion(60, 1, 1.8);
+  walk.lose(500, 560, 4);
+  walk.lose(900, 930, 0.1);
+  see_ground(walk);
+  // Another scene, of twice the contrast: alignment error would be wrong by as much.
+  for (auto& errors : walk.errors.by_separation)
+    for (std::size_t i = 560; i < errors.size(); ++i) errors[i] *= 2;
+  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), unsmoothed());
+  EXPECT_FALSE(tied.metric);
+  EXPECT_TRUE(tied.by_ground);
+  const double unit = *tied.displacement[300] / walk.metres[300];
+  for (const std::size_t i : {100U, 700U, 1200U})
+    EXPECT_NEAR(*tied.displacement[i], unit * walk.metres[i], 1e-9) << i;  // rounding
+
+  vo::TrackScaleOptions with_height = unsmoothed();
+  with_height.camera_height_m = 1.605;  // where the two heights of each frame meet
+  const vo::ScaledTrack in_metres = vo::tie_track_scale(walk.evidence(), with_height);
+  EXPECT_TRUE(in_metres.metric);
+  for (const std::size_t i : {100U, 700U, 1200U})
+    EXPECT_NEAR(*in_metres.displacement[i], walk.metres[i], 1e-4 * walk.metres[i]) << i;
+}
+
+TEST(TieTrackScale, HoldsAScaleThatDriftsByTheGround) {
+  KnownMotion walk = known_motion(60, 1, 1.8);
+  for (std::size_t i = 0; i < walk.frames(); ++i)
+    walk.track.frames[i].displacement *= std::exp(-0.0003 * double(i));
+  see_ground(walk);
+  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), unsmoothed());
+  const double unit = *tied.displacement[750] / walk.metres[750];
+  // In the ten seconds to either side of a frame the unit changes by 7.5 %; at the ends, where there is but
+  // one side, half of that is left, and at both ends it is to another side.
+  for (std::size_t i = 1; i < walk.frames(); ++i)
+    EXPECT_NEAR(*tied.displacement[i], unit * walk.metres[i], 0.05 * unit * walk.metres[i]) << i;
+}
+
+TEST(TieTrackScale, TiesASegmentWithoutGroundBySpeedAndAlignmentError) {
+  KnownMotion walk = known_motion(60, 1, 1.8);
+  walk.lose(500, 560, 4);
+  walk.lose(900, 930, 0.1);
+  see_ground(walk);
+  for (std::size_t i = 560; i < 900; ++i) walk.track.heights[i].clear();
+  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), unsmoothed());
+  const double unit = *tied.displacement[300] / walk.metres[300];
+  const double tie = *tied.displacement[700] / walk.metres[700] / unit;
+  EXPECT_GT(tie, 0.7);  // as speed changes over 3.4 s of a swing of 9 s
+  EXPECT_LT(tie, 1.4);
+  // The ground is that before the loss, however the segment between was tied.
+  EXPECT_NEAR(*tied.displacement[1200], unit * walk.metres[1200], 1e-9);
 }
 
 TEST(TieTrackScale, LeavesOutWhatStepsContradict) {

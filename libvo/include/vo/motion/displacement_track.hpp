@@ -53,6 +53,9 @@ struct DisplacementTrack {
   /// before anything's depth was known. Of visual odometry each segment has a world of its own, the axes of
   /// its first camera; those of a file are the file's.
   std::vector<std::optional<Pose3>> poses;
+  /// How high the camera is above what may be ground (`heights_above`), one list for each frame, in the unit
+  /// of its segment; most are empty, and there are no lists at all where nothing is known of the scene.
+  std::vector<std::vector<double>> heights;
 
   [[nodiscard]] std::size_t size() const { return frames.size(); }
 };

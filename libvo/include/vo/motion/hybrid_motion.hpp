@@ -33,6 +33,8 @@ struct FrameDisplacement {
 /// Relative errors over a second of steps and of alignment error, for walks on which they cannot be measured.
 inline constexpr double kUsualStepsError = 0.1;
 inline constexpr double kUsualAlignmentError = 0.4;
+/// Relative error of a length told by the camera's height above the ground (KITTI 03, every six seconds).
+inline constexpr double kUsualGroundError = 0.03;
 
 /// Settings of `hybrid_motion`.
 struct HybridMotionOptions {
@@ -44,7 +46,7 @@ struct HybridMotionOptions {
 /// One displacement for each frame.
 struct HybridMotion {
   std::vector<FrameDisplacement> frames;
-  bool metric = false;  ///< metres; otherwise frames at the walk's mean speed
+  bool metric = false;  ///< metres; otherwise some unit of the track's, or frames at the walk's mean speed
 };
 
 /// One continuous displacement per frame from sources that each fail at times (SSS 3.5, 5.2, Fig. 9).

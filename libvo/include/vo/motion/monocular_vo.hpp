@@ -3,6 +3,7 @@
 #include "vo/base/camera.hpp"
 #include "vo/motion/corner_grid.hpp"
 #include "vo/motion/displacement_track.hpp"
+#include "vo/motion/ground_height.hpp"
 #include "vo/motion/klt_tracking.hpp"
 
 #include <cstddef>
@@ -38,7 +39,8 @@ struct MonocularVoOptions {
   double max_turn_deg = 20;         ///< from one frame to the next
   double max_speedup = 5;           ///< times the median displacement of the last frames
   double max_gap_s = 0.5;           ///< seconds without a frame
-  int seed = 1;                     ///< of random samples
+  GroundHeightOptions ground;
+  int seed = 1;  ///< of random samples
 
   /// True if every field is in its range; else says in `*error` which is not.
   [[nodiscard]] bool is_valid(std::string* error) const;
