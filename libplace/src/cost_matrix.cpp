@@ -6,6 +6,7 @@
 #include <array>
 #include <numeric>
 #include <stdexcept>
+#include <unistd.h>
 
 #include <vo/base/parallel.hpp>
 #include <vo/image/patch_normalisation.hpp>
@@ -13,12 +14,20 @@
 namespace place {
 namespace {
 
-// A band of queries stays in the second-level cache while references stream past.
-constexpr std::size_t kBandImages = 96;
-constexpr std::size_t kBlockReferences = 128;
+constexpr std::size_t kBlockReferences = 64;  // of a task
 
 constexpr std::size_t blocks_of(std::size_t size, std::size_t count) {
   return (count + size - 1) / size;
+}
+
+/// Queries that stay in the second-level cache while references stream past: as many as fill half of it.
+std::size_t band_queries(std::size_t query_bytes) {
+  static const std::size_t cache = [] {
+    constexpr long kUsual = 1L << 19U;
+    const long bytes = sysconf(_SC_LEVEL2_CACHE_SIZE);
+    return static_cast<std::size_t>(bytes > 0 ? bytes : kUsual);
+  }();
+  return std::max<std::size_t>(1, cache / 2 / query_bytes);
 }
 
 /// Columns [first, first + width) of every image, `variants` times with the first column one further on.
@@ -83,26 +92,34 @@ CostRows::CostRows(const vo::ImageStack& queries, const vo::ImageStack& referenc
 }
 
 void CostRows::compute(std::size_t first, std::size_t count, std::span<float> rows) const {
+  if (count == 0 || references() == 0) return;
   const std::size_t pixels = reference_images().image_size();
   const float scale = 1.0F / (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(pixels));
   const kernels::AbsoluteDifferenceKernel kernel = kernels::absolute_difference();
   const std::uint8_t* query_bytes = query_images().pixels.data();
   const std::uint8_t* reference_bytes = reference_images().pixels.data();
-  const std::size_t band = std::max<std::size_t>(1, kBandImages / variants_);
+  // Bands of about one size, a multiple of what kernels take together.
+  constexpr std::size_t kTogether = 12;
+  const std::size_t bands = blocks_of(band_queries(variants_ * pixels), count);
+  const std::size_t band = blocks_of(kTogether, blocks_of(bands, count)) * kTogether;
   const std::size_t columns = blocks_of(kBlockReferences, references());
   vo::parallel_for(blocks_of(band, count) * columns, [&](std::size_t tile) {
     const std::size_t q = tile / columns * band, r = tile % columns * kBlockReferences;
     const std::size_t tall = std::min(band, count - q), wide = std::min(kBlockReferences, references() - r);
-    std::vector<std::uint32_t> sums(tall * variants_ * wide);
-    kernel({query_bytes + (first + q) * variants_ * pixels, tall * variants_},
-           {reference_bytes + r * pixels, wide}, pixels, sums.data(), wide);
+    const kernels::ByteImages query{query_bytes + (first + q) * variants_ * pixels, tall * variants_};
+    const kernels::ByteImages reference{reference_bytes + r * pixels, wide};
+    float* const out = rows.data() + q * references() + r;
+    if (variants_ == 1) return kernel(query, reference, pixels, {scale, out, references()});
+    std::vector<float> costs(tall * variants_ * wide);
+    kernel(query, reference, pixels, {scale, costs.data(), wide});
     for (std::size_t i = 0; i < tall; ++i) {
-      std::uint32_t* least = sums.data() + i * variants_ * wide;
+      float* const least = out + i * references();
+      const float* variant = costs.data() + i * variants_ * wide;
+      std::copy_n(variant, wide, least);
       for (std::size_t v = 1; v < variants_; ++v) {
-        for (std::size_t j = 0; j < wide; ++j) least[j] = std::min(least[j], least[v * wide + j]);
+        variant += wide;
+        for (std::size_t j = 0; j < wide; ++j) least[j] = variant[j] < least[j] ? variant[j] : least[j];
       }
-      float* row = rows.data() + (q + i) * references() + r;
-      for (std::size_t j = 0; j < wide; ++j) row[j] = static_cast<float>(least[j]) * scale;
     }
   });
 }

@@ -94,11 +94,10 @@ CostMatrix difference_matrix(const vo::ImageStack& queries, const vo::ImageStack
   const auto divisor = static_cast<float>(options.quirks.divides_by_reference_count ? references.size()
                                                                                     : queries.image_size());
   vo::parallel_for(queries.size(), [&](std::size_t q) {
-    std::vector<std::uint32_t> sums(references.size());
+    const std::span<float> row = matrix.row(q);
     kernels::absolute_difference()({queries[q].data(), 1}, {references.pixels.data(), references.size()},
-                                   references.image_size(), sums.data(), sums.size());
-    std::ranges::transform(sums, matrix.row(q).begin(),
-                           [&](auto sum) { return static_cast<float>(sum) / divisor; });
+                                   references.image_size(), {1, row.data(), row.size()});
+    for (float& cost : row) cost /= divisor;
   });
   return matrix;
 }

@@ -91,11 +91,11 @@ BENCHMARK(cost_matrix_shifted)
 /// The plain loop, which the others must equal.
 void cost_matrix_scalar(benchmark::State& state) {
   const Walks walks(state);
-  std::vector<std::uint32_t> sums(walks.query.size() * walks.reference.size());
+  std::vector<float> sums(walks.query.size() * walks.reference.size());
   for (auto _ : state) {
     place::kernels::absolute_difference_scalar({walks.query.pixels.data(), walks.query.size()},
                                                {walks.reference.pixels.data(), walks.reference.size()},
-                                               kPixels, sums.data(), walks.reference.size());
+                                               kPixels, {1, sums.data(), walks.reference.size()});
     benchmark::DoNotOptimize(sums.data());
   }
   walks.report(state);

@@ -3,16 +3,16 @@
 namespace place::kernels {
 
 void absolute_difference_scalar(ByteImages queries, ByteImages references, std::size_t size,
-                                std::uint32_t* sums, std::size_t stride) {
+                                const ScaledSums& sums) {
   for (std::size_t i = 0; i < queries.count; ++i) {
     const std::uint8_t* query = queries.bytes + i * size;
     for (std::size_t j = 0; j < references.count; ++j) {
       const std::uint8_t* reference = references.bytes + j * size;
-      std::uint32_t sum = 0;
+      std::int32_t sum = 0;
       for (std::size_t k = 0; k < size; ++k) {
         sum += query[k] > reference[k] ? query[k] - reference[k] : reference[k] - query[k];
       }
-      sums[i * stride + j] = sum;
+      sums.values[i * sums.stride + j] = static_cast<float>(sum) * sums.scale;
     }
   }
 }

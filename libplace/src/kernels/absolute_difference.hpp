@@ -11,26 +11,34 @@ struct ByteImages {
   std::size_t count;
 };
 
-/// sums[i * stride + j] = sum over k < size of |queries[i * size + k] - references[j * size + k]|. Exact.
-/// `size` < 2^24, so that the sum fits 32 bits; stride >= references.count. A thread streams the references
-/// past the queries, which had best fit half its second-level cache.
+/// Where costs go, query by query: scale * sum for query i and reference j to values[i * stride + j].
+struct ScaledSums {
+  float scale;
+  float* values;
+  std::size_t stride;
+};
+
+/// sums of |queries[i * size + k] - references[j * size + k]| over k < size. Exact integers until the two
+/// roundings of `float(sum) * scale`. `size` < 2^23, so that a sum fits 31 bits; stride >= references.count.
+/// A thread streams the references past the queries, which had best fit half its second-level cache; images
+/// that begin at cache lines are read at up to twice the speed.
 using AbsoluteDifferenceKernel = void (*)(ByteImages queries, ByteImages references, std::size_t size,
-                                          std::uint32_t* sums, std::size_t stride);
+                                          const ScaledSums& sums);
 
 /// The plain loop that the others must equal.
 void absolute_difference_scalar(ByteImages queries, ByteImages references, std::size_t size,
-                                std::uint32_t* sums, std::size_t stride);
+                                const ScaledSums& sums);
 
 #if defined(__x86_64__)
 /// Needs AVX2.
 void absolute_difference_avx2(ByteImages queries, ByteImages references, std::size_t size,
-                              std::uint32_t* sums, std::size_t stride);
+                              const ScaledSums& sums);
 /// Needs AVX-512 F and BW.
 void absolute_difference_avx512(ByteImages queries, ByteImages references, std::size_t size,
-                                std::uint32_t* sums, std::size_t stride);
+                                const ScaledSums& sums);
 #elif defined(__aarch64__)
 void absolute_difference_neon(ByteImages queries, ByteImages references, std::size_t size,
-                              std::uint32_t* sums, std::size_t stride);
+                              const ScaledSums& sums);
 #endif
 
 /// The fastest of them that this processor runs.

@@ -11,7 +11,7 @@ struct Avx2 {
   using Bytes = __m256i;
   using Sums = __m256i;  // four of 64 bits
   static constexpr std::size_t kBytes = 32;
-  static constexpr std::size_t kTileQueries = 2, kTileReferences = 6;  // all 16 registers
+  static constexpr std::size_t kTileQueries = 6, kTileReferences = 2;  // all 16 registers
 
   static Bytes load(const std::uint8_t* from) {
     return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
@@ -25,17 +25,21 @@ struct Avx2 {
   static void keep_in_register(Bytes& bytes) { asm("" : "+x"(bytes)); }
   static Sums zero() { return _mm256_setzero_si256(); }
   static Sums add(Sums sums, Bytes a, Bytes b) { return _mm256_add_epi64(sums, _mm256_sad_epu8(a, b)); }
-  static std::uint32_t total(Sums sums) {
+  static std::int32_t total(Sums sums) {
     const __m128i halves = _mm_add_epi64(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1));
-    return static_cast<std::uint32_t>(_mm_cvtsi128_si64(halves) + _mm_extract_epi64(halves, 1));
+    return static_cast<std::int32_t>(_mm_cvtsi128_si64(halves) + _mm_extract_epi64(halves, 1));
+  }
+  template <std::size_t kQueries, std::size_t kReferences>
+  static void store(const Sums (&sums)[kQueries][kReferences], const ScaledSums& to) {
+    store_each<Avx2>(sums, to);
   }
 };
 
 }  // namespace
 
 void absolute_difference_avx2(ByteImages queries, ByteImages references, std::size_t size,
-                              std::uint32_t* sums, std::size_t stride) {
-  sum_all<Avx2>(queries, references, size, sums, stride);
+                              const ScaledSums& sums) {
+  sum_all<Avx2>(queries, references, size, sums);
 }
 
 }  // namespace place::kernels

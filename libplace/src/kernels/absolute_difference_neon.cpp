@@ -11,7 +11,7 @@ struct Neon {
   using Bytes = uint8x16_t;
   using Sums = uint32x4_t;
   static constexpr std::size_t kBytes = 16;
-  static constexpr std::size_t kTileQueries = 4, kTileReferences = 6;  // 30 of 32 registers
+  static constexpr std::size_t kTileQueries = 6, kTileReferences = 4;  // 30 of 32 registers
 
   static Bytes load(const std::uint8_t* from) { return vld1q_u8(from); }
   static Bytes load_last(const std::uint8_t* end, std::size_t count) {
@@ -22,14 +22,18 @@ struct Neon {
   static void keep_in_register(Bytes& bytes) { asm("" : "+w"(bytes)); }
   static Sums zero() { return vdupq_n_u32(0); }
   static Sums add(Sums sums, Bytes a, Bytes b) { return vpadalq_u16(sums, vpaddlq_u8(vabdq_u8(a, b))); }
-  static std::uint32_t total(Sums sums) { return vaddvq_u32(sums); }
+  static std::int32_t total(Sums sums) { return static_cast<std::int32_t>(vaddvq_u32(sums)); }
+  template <std::size_t kQueries, std::size_t kReferences>
+  static void store(const Sums (&sums)[kQueries][kReferences], const ScaledSums& to) {
+    store_each<Neon>(sums, to);
+  }
 };
 
 }  // namespace
 
 void absolute_difference_neon(ByteImages queries, ByteImages references, std::size_t size,
-                              std::uint32_t* sums, std::size_t stride) {
-  sum_all<Neon>(queries, references, size, sums, stride);
+                              const ScaledSums& sums) {
+  sum_all<Neon>(queries, references, size, sums);
 }
 
 }  // namespace place::kernels

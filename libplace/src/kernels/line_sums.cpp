@@ -41,10 +41,14 @@ const LineKernels& scalar_line_kernels() {
 
 const LineKernels& line_kernels() {
 #if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2");
-  if (has_avx2) return avx2_line_kernels();
-#endif
+  static const LineKernels& fastest = []() -> const LineKernels& {
+    if (__builtin_cpu_supports("avx512f")) return avx512_line_kernels();
+    return __builtin_cpu_supports("avx2") ? avx2_line_kernels() : scalar_line_kernels();
+  }();
+  return fastest;
+#else
   return scalar_line_kernels();
+#endif
 }
 
 }  // namespace place::kernels

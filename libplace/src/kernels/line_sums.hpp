@@ -46,6 +46,8 @@ const LineKernels& scalar_line_kernels();
 #if defined(__x86_64__)
 /// Needs AVX2.
 const LineKernels& avx2_line_kernels();
+/// Needs AVX-512 F.
+const LineKernels& avx512_line_kernels();
 #endif
 
 /// The fastest of them that this processor runs.

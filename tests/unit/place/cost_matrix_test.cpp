@@ -28,6 +28,8 @@ std::vector<place::kernels::AbsoluteDifferenceKernel> kernels() {
                                                             place::kernels::absolute_difference()};
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) all.push_back(place::kernels::absolute_difference_avx2);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw"))
+    all.push_back(place::kernels::absolute_difference_avx512);
 #endif
   return all;
 }
@@ -41,20 +43,20 @@ TEST(AbsoluteDifferenceKernels, EqualTheSumForAnySizeAndCount) {
       for (std::size_t references = 0; references <= 14; ++references) {
         SCOPED_TRACE(testing::Message() << size << " bytes, " << queries << " x " << references);
         // Two places more in each row than the kernel may write to.
-        constexpr std::uint32_t kUntouched = 12345;
+        constexpr float kUntouched = 0.5F;
         const std::size_t stride = references + 2;
-        std::vector<std::uint32_t> expected(queries * stride, kUntouched);
+        std::vector<float> expected(queries * stride, kUntouched);
         for (std::size_t i = 0; i < queries; ++i) {
           for (std::size_t j = 0; j < references; ++j) {
             int sum = 0;
             for (std::size_t k = 0; k < size; ++k) sum += std::abs(all_queries[i][k] - all_references[j][k]);
-            expected[i * stride + j] = static_cast<std::uint32_t>(sum);
+            expected[i * stride + j] = static_cast<float>(sum) * 0.1F;
           }
         }
         for (const auto kernel : kernels()) {
-          std::vector<std::uint32_t> sums(queries * stride, kUntouched);
+          std::vector<float> sums(queries * stride, kUntouched);
           kernel({all_queries.pixels.data(), queries}, {all_references.pixels.data(), references}, size,
-                 sums.data(), stride);
+                 {0.1F, sums.data(), stride});
           ASSERT_EQ(sums, expected);
         }
       }
@@ -67,11 +69,11 @@ TEST(AbsoluteDifferenceKernels, DoNotOverflow) {
   constexpr std::size_t kSize = 100003;
   const std::vector<std::uint8_t> bright(kSize, 255), dark(7 * kSize, 0);
   for (const auto kernel : kernels()) {
-    std::vector<std::uint32_t> sums(7);
-    kernel({bright.data(), 1}, {dark.data(), 7}, kSize, sums.data(), 7);
-    EXPECT_THAT(sums, Each(25500765U));
-    kernel({dark.data(), 7}, {bright.data(), 1}, kSize, sums.data(), 1);  // and the other way round
-    EXPECT_THAT(sums, Each(25500765U));
+    std::vector<float> sums(7);
+    kernel({bright.data(), 1}, {dark.data(), 7}, kSize, {1, sums.data(), 7});
+    EXPECT_THAT(sums, Each(25500765.0F));
+    kernel({dark.data(), 7}, {bright.data(), 1}, kSize, {1, sums.data(), 1});  // and the other way round
+    EXPECT_THAT(sums, Each(25500765.0F));
   }
 }
 

@@ -74,7 +74,8 @@ TEST(PatchNormalise, WorkedExample) {
   const vo::PatchNormalisationOptions options{.patch_px = 2, .min_contrast = 0};
   vo::patch_normalise(image, 2, 2, options, z);
   EXPECT_THAT(z, testing::ElementsAre(-1, -1, 1, 1));
-  const vo::ImageStack bytes = vo::patch_normalise({.width = 2, .height = 2, .pixels = image}, options);
+  const vo::ImageStack bytes =
+      vo::patch_normalise({.width = 2, .height = 2, .pixels = {image.begin(), image.end()}}, options);
   EXPECT_THAT(bytes.pixels, testing::ElementsAre(112, 112, 144, 144));
 }
 
@@ -118,7 +119,8 @@ TEST(PatchNormalise, GivesTheNeutralValueWithoutTexture) {
     std::vector<float> z(black.size(), 9);
     vo::patch_normalise(black, 16, 16, {.shape = shape}, z);
     EXPECT_THAT(z, Each(0.0F));
-    const auto bytes = vo::patch_normalise({.width = 16, .height = 16, .pixels = black}, {.shape = shape});
+    const auto bytes = vo::patch_normalise(
+        {.width = 16, .height = 16, .pixels = {black.begin(), black.end()}}, {.shape = shape});
     EXPECT_THAT(bytes.pixels, Each(vo::kNeutralByte));
   }
 }
@@ -139,13 +141,15 @@ TEST(PatchNormalise, BytesAreTheDeviationsRounded) {
   // One bright pixel among 63: the largest deviation there is, sqrt(63) = 7.94, still fits.
   std::vector<std::uint8_t> image(64, 0);
   image[20] = 255;
-  const auto bytes = vo::patch_normalise({.width = 8, .height = 8, .pixels = image}, {.min_contrast = 0});
+  const auto bytes = vo::patch_normalise({.width = 8, .height = 8, .pixels = {image.begin(), image.end()}},
+                                         {.min_contrast = 0});
   EXPECT_EQ(bytes.pixels[20], 255);
   EXPECT_EQ(bytes.pixels[0], 126);  // -1 / sqrt(63) = -0.126 deviations = -2.02 steps
 }
 
 TEST(PatchNormalise, IsTheSameForAnyThreadCount) {
-  const vo::ImageStack images{.width = 16, .height = 8, .pixels = noise(16 * 8 * 50, 11)};
+  const auto pixels = noise(16 * 8 * 50, 11);
+  const vo::ImageStack images{.width = 16, .height = 8, .pixels = {pixels.begin(), pixels.end()}};
   vo::set_thread_count(1);
   const auto one = vo::patch_normalise(images, {});
   vo::set_thread_count(4);

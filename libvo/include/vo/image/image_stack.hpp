@@ -2,17 +2,33 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
 namespace vo {
+
+/// Memory of a vector from a cache line on, so that no load of a register's width crosses into the next.
+template <typename T>
+struct CacheAligned {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+
+  CacheAligned() = default;
+  template <typename U>
+  CacheAligned(const CacheAligned<U>&) {}
+
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  void deallocate(T* memory, std::size_t) { ::operator delete(memory, kLine); }
+  bool operator==(const CacheAligned&) const { return true; }
+};
 
 /// Small grey images of one size, one after another in memory, each row-major: the thumbnails of a walk, or
 /// the descriptors made of them.
 struct ImageStack {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> pixels;
+  std::vector<std::uint8_t, CacheAligned<std::uint8_t>> pixels;
 
   [[nodiscard]] std::size_t image_size() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
