@@ -12,6 +12,10 @@
 #include <string>
 #include <vector>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <fmt/format.h>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -107,6 +111,11 @@ int run(int argc, char** argv) {
 namespace retrace {
 
 extern "C" int retrace_run(int argc, char** argv) {
+#if defined(__GLIBC__)
+  // Frames come and go by the thousand: memory given back to the system would be faulted in again for each.
+  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
   // FFmpeg and OpenCV print to stderr on their own; what matters of it reaches the user through our messages.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     fmt::print("retrace {}\n", place::kVersion);
     return std::fflush(stdout) == 0 ? 0 : 1;
   }
-  void* const module = dlopen(RETRACE_COMMANDS, RTLD_NOW);
+  void* const module = dlopen(RETRACE_COMMANDS, RTLD_LAZY);
   void* const run = module != nullptr ? dlsym(module, "retrace_run") : nullptr;
   if (run == nullptr) {
     fmt::print(stderr, "retrace: {}\n", dlerror());

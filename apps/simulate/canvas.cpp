@@ -52,6 +52,7 @@ void Canvas::fill(const cv::Rect2d& area_m, const Colour& colour) {
 void Canvas::glow(const cv::Rect2d& area_m, const Colour& colour) {
   if (painting_.glow.empty()) painting_.glow = cv::Mat3b::zeros(painting_.colour.size());
   const cv::Rect area = texels(area_m);
+  if (area.empty()) return;
   // Light from inside shows what is in the window: it takes on the painting's brightness.
   cv::Mat lit;
   cv::multiply(painting_.colour(area), cv::Scalar(colour[0], colour[1], colour[2]) / 255.0, lit, 1, CV_8U);

@@ -41,8 +41,8 @@ std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRang
                                        const SegmentTieOptions& options = {});
 
 /// By the relation of alignment error and displacement, learned before the loss and read after it (SSS 3.5).
-/// sigma is how far that is off over losses as long, made up in what is tied. None without errors, or if
-/// there is nothing to be learned. O(window * separations).
+/// sigma is `relation_sigma`. None without errors, or if there is nothing to be learned.
+/// O(window * separations).
 std::optional<SegmentTie> tie_by_relation(const MotionEvidence& evidence, FrameRange run,
                                           std::span<const std::optional<double>> way,
                                           std::span<const std::optional<double>> tied,
