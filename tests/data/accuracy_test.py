@@ -134,16 +134,16 @@ class AccuracyTest(unittest.TestCase):
             for reference, query in ((a, b), (b, a)):
                 with self.subTest(query=query):
                     as_found, with_random = self.corrected(reference, query)
-                    if reference == a:
-                        self.assertGreater(as_found["ape_odometry_end_m"], 8)
+                    inside.append(as_found["ape_inside_90"])
                     self.assertLessEqual(as_found["ape_rmse_m"], 1)
                     self.assertLessEqual(as_found["ape_end_m"], 1.5)
                     self.assertLessEqual(with_random["ape_rmse_m"], 1.5)
-                    inside.append(as_found["ape_inside_90"])
-                    self.assertGreaterEqual(inside[-1], 0.85)
-        # All together not above 0.95, but one walk may be: how far aside and ahead of its matches a walker keeps is
-        # one draw for the whole of it.
-        self.assertLessEqual(statistics.mean(inside), 0.95)
+                    if reference == a:
+                        self.assertGreater(as_found["ape_odometry_end_m"], 8)
+                        self.assertAlmostEqual(inside[-1], 0.9, delta=0.05)
+        # The other way round a walk alone may lie outside: how far aside and ahead of its matches a walker keeps is one
+        # draw for the whole of it. All four together may not.
+        self.assertAlmostEqual(statistics.mean(inside), 0.9, delta=0.05)
 
     def test_two_walks_of_drifting_odometry_agree(self):
         """The reference's poses are its own odometry: the same place must have the same coordinates."""
