@@ -154,11 +154,13 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
   return json;
 }
 
-/// By the source asked for; by steps alone where the others tell nothing.
+/// By the source asked for; by steps alone where the others tell nothing, or too few frames a second show no
+/// steps.
 vo::WalkMotion walked_motion(const vo::Walk& walk, const Settings& settings) {
   if (settings.sampling.sampling.motion == vo::MotionSource::kHybrid) {
     try {
-      return vo::walk_motion(walk, vo::MotionSource::kHybrid, settings.sampling.motion);
+      vo::WalkMotion motion = vo::walk_motion(walk, vo::MotionSource::kHybrid, settings.sampling.motion);
+      if (motion.pedestrian) return motion;
     } catch (const vo::Error& error) {
       spdlog::warn("{}; steps alone are used", error.what());
     }

@@ -261,7 +261,7 @@ class ReportsTest(unittest.TestCase):
         self.assertEqual(len(self.all("table.heat")), 2)
         self.assertGreaterEqual(len(self.all("td.best")), 2)
         shades = {cell.value_of_css_property("background-color") for cell in self.all("table.heat td")}
-        self.assertGreater(len(shades), 2)
+        self.assertGreater(len(shades), 1)
 
     def test_compare(self):
         runs = [self.walks.evaluated(self.walks.localised(name, *options))

@@ -150,8 +150,9 @@ class CliTest(unittest.TestCase):
         legs = [row["leg"] for row in steps]
         self.assertTrue(all(a != b for a, b in zip(legs, legs[1:])), legs)
         walked = sum(float(row["displacement"]) for row in frames)
-        # Visual odometry tells each frame's way and steps tell metres, over ten seconds at a time: nearly the steps' sum.
-        self.assertAlmostEqual(walked, len(steps) * step_length, delta=0.03 * walked)
+        # Visual odometry tells each frame's way and steps tell metres: their sum, but for the steps that the walk begins
+        # and ends within, and what whole steps leave of their mean length.
+        self.assertAlmostEqual(walked, len(steps) * step_length, delta=2 * step_length)
         self.assertIn("vo", {row["source"] for row in frames})
         check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "by_steps", "--step-length", step_length,
               "--motion", "steps")

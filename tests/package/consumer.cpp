@@ -1,13 +1,16 @@
+#include <algorithm>
 #include <cstdio>
 #include <vector>
 
 #include <place/cost_matrix.hpp>
 #include <place/resampling.hpp>
 #include <place/version.hpp>
+#include <vo/image/image_stack.hpp>
 #include <vo/image/patch_normalisation.hpp>
 
 int main() {
-  const vo::ImageStack thumbnails{.width = 8, .height = 8, .pixels = std::vector<unsigned char>(64, 7)};
+  vo::ImageStack thumbnails = vo::make_image_stack(8, 8, 1);
+  std::ranges::fill(thumbnails.pixels, 7);
   const vo::ImageStack descriptors = vo::patch_normalise(thumbnails, {});
   const place::CostMatrix cost = place::cost_matrix(descriptors, descriptors);
   const std::vector<double> displacement(10, 1.0);

@@ -33,7 +33,7 @@ struct MonocularVoOptions {
   double keyframe_travel = 0.08;    ///< travel since the last keyframe, as a share of the median depth
   double keyframe_share = 0.7;      ///< or landmarks still seen, as a share of those it saw
   std::size_t min_points = 20;      ///< fewer points followed: lost
-  std::size_t min_landmarks = 12;   ///< fewer landmarks where they should be: lost
+  std::size_t min_landmarks = 8;    ///< fewer landmarks where they should be: lost
   double min_inlier_share = 0.5;    ///< of the landmarks followed
   std::size_t min_cells = 4;        ///< of 6 x 4 over the picture, that the landmarks lie in
   double max_turn_deg = 20;         ///< from one frame to the next
