@@ -1,7 +1,11 @@
 #include "vo/walk_motion.hpp"
 
 #include "vo/gait/lowpass.hpp"
+#include "vo/motion/ground_height.hpp"
 
+#include <algorithm>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace vo {
@@ -52,16 +56,43 @@ std::vector<bool> steps_seen(const PedestrianMotion& motion) {
   return seen;
 }
 
-/// False where steps were found during less than half of the time that the camera is seen to move: the sway
-/// of a car looks like a few.
+/// How high above the ground the steps would have the camera, metres, by the segment of the track in which
+/// most of them lie; none where no ground is seen.
+std::optional<double> height_by_steps_m(const DisplacementTrack& track, const std::vector<double>& steps_m) {
+  struct Segment {
+    double walked_m = 0, passed = 0;
+    std::vector<double> heights;
+  };
+  std::map<int, Segment> segments;
+  for (std::size_t i = 0; i < track.size() && !track.heights.empty(); ++i) {
+    if (!track.frames[i].valid || !(steps_m[i] > 0)) continue;
+    Segment& segment = segments[track.frames[i].segment];
+    segment.walked_m += steps_m[i];
+    segment.passed += track.frames[i].displacement;
+    segment.heights.insert(segment.heights.end(), track.heights[i].begin(), track.heights[i].end());
+  }
+  const auto longest =
+      std::ranges::max_element(segments, {}, [](const auto& numbered) { return numbered.second.walked_m; });
+  if (longest == segments.end() || !(longest->second.passed > 0)) return std::nullopt;
+  std::optional<double> height = ground_height(longest->second.heights);
+  if (height) *height *= longest->second.walked_m / longest->second.passed;
+  return height;
+}
+
+/// False where steps were found during less than half of the time that the camera is seen to move, or have it
+/// nearer to the ground, or higher, than one that is carried: the bounce and sway of a car look like steps.
 bool on_foot(const PedestrianMotion& motion, const Walk& walk, const std::vector<bool>& standing) {
+  constexpr double kLowest_m = 0.5, kHighest_m = 3;  // from hip to above the head, and steps half as long
   std::size_t moving = 0, stepping = 0;
   for (std::size_t i = 1; i < walk.frames(); ++i) {
     if (!walk.track || !walk.track->frames[i].valid || standing[i]) continue;
     ++moving;
     stepping += motion.displacement_m[i] > 0 ? 1 : 0;
   }
-  return !motion.detection.steps.empty() && 2 * stepping >= moving;
+  if (motion.detection.steps.empty() || 2 * stepping < moving) return false;
+  if (!walk.track) return true;
+  const std::optional<double> height_m = height_by_steps_m(*walk.track, motion.displacement_m);
+  return !height_m || (*height_m >= kLowest_m && *height_m <= kHighest_m);
 }
 
 WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& options) {
