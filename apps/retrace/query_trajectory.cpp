@@ -127,8 +127,8 @@ QueryTrajectory query_trajectory(const place::Route& route, const std::vector<pl
     t.why_not = "fewer than three accepted matches agree with the walk between them";
     return t;
   }
-  // With three of ten matches replaced by random ones three of five or more still agree, and the trajectory is
-  // right; of random ones alone a twentieth do.
+  // With three of ten matches replaced by random ones three of five or more still agree, and the trajectory
+  // is right; of random ones alone a twentieth do.
   if (const std::size_t believed = matches_believed(t); 3 * believed < t.fixes.size()) {
     t.why_not = fmt::format("only {} of {} accepted matches agree with the walk's steps and turns", believed,
                             t.fixes.size());
