@@ -34,7 +34,7 @@ bool has_poses(const place::Route& route);
 std::size_t matches_believed(const QueryTrajectory& trajectory);
 
 /// Corrects the drift of the walk's odometry by its matches, if the settings ask for it. Where the correction
-/// lets go more than three quarters of the matches, it is not to be trusted, and there is none.
+/// lets go more than two thirds of the matches, it is not to be trusted, and there is none.
 QueryTrajectory query_trajectory(const place::Route& route, const vo::Walk& walk,
                                  const place::SampledWalk& sampled, const std::vector<place::Match>& matches,
                                  const Settings& settings);

@@ -1,10 +1,8 @@
 #include "vo/walk_motion.hpp"
 
 #include "vo/gait/lowpass.hpp"
-#include "vo/motion/ground_height.hpp"
+#include "vo/motion/height_by_steps.hpp"
 
-#include <algorithm>
-#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -54,29 +52,6 @@ std::vector<bool> steps_seen(const PedestrianMotion& motion) {
   std::vector<bool> seen = motion.signal.reliable;
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] || motion.displacement_m[i] > 0;
   return seen;
-}
-
-/// How high above the ground the steps would have the camera, metres, by the segment of the track in which
-/// most of them lie; none where no ground is seen.
-std::optional<double> height_by_steps_m(const DisplacementTrack& track, const std::vector<double>& steps_m) {
-  struct Segment {
-    double walked_m = 0, passed = 0;
-    std::vector<double> heights;
-  };
-  std::map<int, Segment> segments;
-  for (std::size_t i = 0; i < track.size() && !track.heights.empty(); ++i) {
-    if (!track.frames[i].valid || !(steps_m[i] > 0)) continue;
-    Segment& segment = segments[track.frames[i].segment];
-    segment.walked_m += steps_m[i];
-    segment.passed += track.frames[i].displacement;
-    segment.heights.insert(segment.heights.end(), track.heights[i].begin(), track.heights[i].end());
-  }
-  const auto longest =
-      std::ranges::max_element(segments, {}, [](const auto& numbered) { return numbered.second.walked_m; });
-  if (longest == segments.end() || !(longest->second.passed > 0)) return std::nullopt;
-  std::optional<double> height = ground_height(longest->second.heights);
-  if (height) *height *= longest->second.walked_m / longest->second.passed;
-  return height;
 }
 
 /// False where steps were found during less than half of the time that the camera is seen to move, or have it

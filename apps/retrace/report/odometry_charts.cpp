@@ -18,8 +18,6 @@
 namespace retrace {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Where consecutive elements that satisfy `shaded` begin and end in time.
