@@ -52,7 +52,7 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
       "frame,time_s,displacement,unit,source,orientation_deg,dx_px,matches,heading_deg,"
       "step_signal,step_threshold,reliable,x_m,y_m,displacement_sigma\n";
   const vo::PedestrianMotion& gait = *motion.pedestrian;
-  const std::vector<double>& signal = vo::step_signal(gait);
+  const std::vector<double>& signal = vo::values_of(gait.step_signal, gait.signal);
   const std::string_view unit = unit_of(walk, motion);
   for (std::size_t i = 0; i < walk.frames(); ++i) {
     const vo::FrameMotion& tracked = walk.tracked[i];
