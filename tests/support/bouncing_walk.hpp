@@ -15,7 +15,8 @@ class BouncingWalk {
  public:
   static constexpr double kRate_hz = 25;
 
-  explicit BouncingWalk(std::uint64_t seed = 1) : rng_(seed) {}
+  /// `phase`: share of a step that was made before.
+  explicit BouncingWalk(double phase = 0) : phase_(phase) {}
 
   /// Goes on for so many steps, which need not be whole, where the last piece left off.
   BouncingWalk& walk(double steps, double step_hz, double bounce_px = 2) {
@@ -62,8 +63,8 @@ class BouncingWalk {
     reliable_.push_back(reliable);
   }
 
-  vo::Rng rng_;
-  double phase_ = 0;
+  vo::Rng rng_{1};
+  double phase_;
   std::vector<double> bounce_px_, growth_, time_s_;
   std::vector<bool> reliable_;
 };

@@ -11,28 +11,67 @@
 namespace vo {
 namespace {
 
-/// The median of one field of those nearest to a place in a list, so many to either side.
-template <typename Item, typename Field>
-double nearest_median(const std::vector<Item>& items, std::ptrdiff_t at, Field field) {
-  constexpr std::ptrdiff_t kNearest = 3;
-  const auto size = static_cast<std::ptrdiff_t>(items.size());
-  std::vector<double> values;
-  for (auto i = std::max<std::ptrdiff_t>(0, at - kNearest); i < std::min(size, at + kNearest); ++i)
-    values.push_back(items[static_cast<std::size_t>(i)].*field);
-  return median(std::move(values));
+/// From one step to the next.
+struct Interval {
+  double middle_s = 0;
+  double seconds = 0;
+  double growth = 0;  ///< mean of its frames
+};
+
+/// The usual step about a time: medians of those nearest to it. For times that increase from call to call.
+class UsualStep {
+ public:
+  explicit UsualStep(const std::vector<Interval>& all) : all_(all) {}
+
+  Interval at(double time_s) {
+    constexpr std::size_t kNearest = 6;
+    while (begin_ + kNearest < all_.size() &&
+           all_[begin_ + kNearest].middle_s - time_s < time_s - all_[begin_].middle_s)
+      ++begin_;
+    std::vector<double> seconds, growth;
+    for (std::size_t i = begin_; i < std::min(all_.size(), begin_ + kNearest); ++i) {
+      seconds.push_back(all_[i].seconds);
+      growth.push_back(all_[i].growth);
+    }
+    return {.middle_s = time_s, .seconds = median(std::move(seconds)), .growth = median(std::move(growth))};
+  }
+
+ private:
+  const std::vector<Interval>& all_;
+  std::size_t begin_ = 0;
+};
+
+/// The intervals in which no step was lost.
+std::vector<Interval> whole_steps(std::span<const double> growth, std::span<const double> time_s,
+                                  std::span<const std::size_t> step_frames, double missed_ratio) {
+  std::vector<Interval> all, whole;
+  for (std::size_t i = 1; i < step_frames.size(); ++i) {
+    const std::size_t from = step_frames[i - 1], to = step_frames[i];
+    const auto part = growth.subspan(from + 1, to - from);
+    all.push_back(
+        {.middle_s = (time_s[from] + time_s[to]) / 2,
+         .seconds = time_s[to] - time_s[from],
+         .growth = std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(to - from)});
+  }
+  UsualStep usual(all);
+  for (const Interval& step : all)
+    if (step.seconds < missed_ratio * usual.at(step.middle_s).seconds) whole.push_back(step);
+  return whole;
 }
 
-/// Steps between two frames, neither of which counts: as many, a `parts`th of the time apart.
-std::vector<Step> evenly(std::size_t from, std::size_t to, double count, double parts,
-                         std::span<const double> signal, std::span<const double> time_s) {
-  std::vector<Step> steps;
-  for (double k = 1; k <= count; ++k) {
-    const auto frame = static_cast<std::size_t>(
-        std::lround(std::lerp(static_cast<double>(from), static_cast<double>(to), k / parts)));
-    if (frame > (steps.empty() ? from : steps.back().frame) && frame < time_s.size())
-      steps.push_back({frame, time_s[frame], Leg::kLeft, signal[frame], true});
+/// The mean over the time of a step about each frame.
+std::vector<double> over_a_step(std::span<const double> values, std::span<const double> time_s,
+                                std::span<const double> step_s) {
+  std::vector<double> mean(values.size());
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    std::size_t begin = i, end = i + 1;
+    while (begin > 0 && time_s[i] - time_s[begin - 1] <= step_s[i] / 2) --begin;
+    while (end < mean.size() && time_s[end] - time_s[i] <= step_s[i] / 2) ++end;
+    mean[i] = std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                              values.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
+              static_cast<double>(end - begin);
   }
-  return steps;
+  return mean;
 }
 
 /// Bridged steps with the other leg than the step beside them.
@@ -48,89 +87,76 @@ void alternate_bridged(std::vector<Step>& steps) {
 
 StepWay::StepWay(std::span<const double> growth, std::span<const double> time_s,
                  std::span<const std::size_t> step_frames, const StepWayOptions& options)
-    : growth_(growth), time_s_(time_s), options_(options) {
-  std::vector<Interval> all;
-  for (std::size_t i = 1; i < step_frames.size(); ++i) {
-    const std::size_t from = step_frames[i - 1], to = step_frames[i];
-    const auto part = growth.subspan(from + 1, to - from);
-    all.push_back(
-        {.end = to,
-         .seconds = time_s[to] - time_s[from],
-         .growth = std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(to - from)});
+    : time_s_(time_s), options_(options) {
+  const std::vector<Interval> steps = whole_steps(growth, time_s, step_frames, options.missed_ratio);
+  if (steps.empty()) return;
+  std::vector<double> usual_growth;
+  UsualStep usual(steps);
+  for (const double now_s : time_s) {
+    const Interval step = usual.at(now_s);
+    step_s_.push_back(step.seconds);
+    usual_growth.push_back(step.growth);
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double usual_s = nearest_median(all, static_cast<std::ptrdiff_t>(i), &Interval::seconds);
-    if (all[i].seconds < options.missed_ratio * usual_s) steps_.push_back(all[i]);
+  const std::vector<double> over_step = over_a_step(growth, time_s, step_s_);
+  way_.assign(time_s.size(), 0);
+  for (std::size_t i = 1; i < way_.size(); ++i) {
+    double cadence = 1;  // share of the usual
+    if (usual_growth[i] > 0) {
+      const bool walks = over_step[i] >= options.min_growth * usual_growth[i];
+      cadence = walks ? std::sqrt(std::clamp(growth[i] / usual_growth[i], 0.0, 1.0)) : 0;
+    }
+    way_[i] = way_[i - 1] + cadence * (time_s[i] - time_s[i - 1]) / step_s_[i];
   }
-}
-
-StepWay::Interval StepWay::usual(std::size_t frame) const {
-  const auto at = std::ranges::lower_bound(steps_, frame, {}, &Interval::end) - steps_.begin();
-  return {.end = frame,
-          .seconds = nearest_median(steps_, at, &Interval::seconds),
-          .growth = nearest_median(steps_, at, &Interval::growth)};
 }
 
 bool StepWay::walking(std::size_t frame) const {
-  const double half_s = step_s(frame) / 2;
+  const double half_s = step_s_[frame] / 2;
   std::size_t a = frame, b = frame;
   while (a > 0 && time_s_[frame] - time_s_[a] < half_s) --a;
   while (b + 1 < time_s_.size() && time_s_[b] - time_s_[frame] < half_s) ++b;
-  return between(a, b, frame) >= options_.min_way;
+  return between(a, b) >= options_.min_way;
 }
 
 bool StepWay::gap(std::size_t a, std::size_t b) const {
-  return time_s_[b] - time_s_[a] > options_.missed_ratio * step_s(b);
+  return time_s_[b] - time_s_[a] > options_.missed_ratio * step_s_[b];
 }
 
-double StepWay::between(std::size_t a, std::size_t b, std::size_t measure) const {
-  const Interval step = usual(measure);
-  if (!(step.growth > 0)) return (time_s_[b] - time_s_[a]) / step.seconds;
-  double steps = 0;
-  for (std::size_t i = a + 1; i <= b; ++i) {
-    const double share = growth_[i] / step.growth;
-    if (share >= options_.min_growth)
-      steps += std::sqrt(std::min(share, 1.0)) * (time_s_[i] - time_s_[i - 1]) / step.seconds;
-  }
-  return steps;
+std::size_t StepWay::after(std::size_t frame, double steps) const {
+  const auto reached = std::ranges::lower_bound(way_, way_[frame] + steps - 1e-9);  // of rounding
+  return std::min(static_cast<std::size_t>(reached - way_.begin()), way_.size() - 1);
 }
 
 StepDetection complete_steps(StepDetection detection, const StepWay& way, std::span<const double> signal,
                              std::span<const double> time_s) {
   if (!way.known() || detection.steps.empty()) return detection;
   std::vector<Step> steps;
-  const auto add = [&](const std::vector<Step>& more) {
-    steps.insert(steps.end(), more.begin(), more.end());
+  const auto add_lost = [&](std::size_t frame) {
+    steps.push_back({frame, time_s[frame], Leg::kLeft, signal[frame], true});
   };
-  for (const Step& step : detection.steps) {
-    if (steps.empty() || !way.gap(steps.back().frame, step.frame)) {
-      steps.push_back(step);
-      continue;
-    }
+  // Up to a step lies between an end of the recording and the footfall next to it; the way is known no better
+  // than to a quarter.
+  const auto lost = [](double steps_of_way) { return std::max(0.0, std::floor(steps_of_way - 0.25)); };
+
+  const double before = way.between(0, detection.steps.front().frame);
+  for (double k = lost(before); k >= 1; --k) add_lost(way.after(0, before - k));
+  steps.push_back(detection.steps.front());
+  for (const Step& step : std::span(detection.steps).subspan(1)) {
     const std::size_t from = steps.back().frame;
-    double count = std::round(way.between(from, step.frame, step.frame));
+    const double length = way.between(from, step.frame);
     constexpr double kStand = 3;  // steps: to stop and start again takes no less time
-    if (time_s[step.frame] - time_s[from] < kStand * way.step_s(step.frame)) count = std::max(count, 1.0);
+    const double least = time_s[step.frame] - time_s[from] < kStand * way.step_s(step.frame) ? 1 : 0;
+    const double count = way.gap(from, step.frame) ? std::max(least, std::round(length)) : 1;
     if (count >= 1) {
-      add(evenly(from, step.frame, count - 1, count, signal, time_s));
+      for (double k = 1; k < count; ++k) add_lost(way.after(from, length * k / count));
       steps.push_back(step);
     } else if (std::abs(step.value_deg) > std::abs(steps.back().value_deg)) {
       steps.back() = step;
     }
   }
+  const std::size_t last = steps.back().frame;
+  const double after = way.between(last, time_s.size() - 1);
+  for (double k = 1; k <= lost(after); ++k) add_lost(way.after(last, k));
 
-  const std::size_t first = steps.front().frame, last = steps.back().frame, end = time_s.size() - 1;
-  const double before = way.between(0, first, first), after = way.between(last, end, last);
-  constexpr double kDone = 0.9;  // of a step: the way is known no better than to a tenth
-  const double more = std::floor(before + after + 1 - kDone) - 1;  // the first one seen is one of them
-  if (more < 0) {
-    steps.erase(before < after ? steps.begin() : steps.end() - 1);
-  } else {
-    const double at_start = std::clamp(std::ceil(before - 1 + kDone) - 1, 0.0, more);
-    const std::vector<Step> lost = evenly(0, first, at_start, at_start + 1, signal, time_s);
-    add(evenly(last, end, more - at_start, std::max(after, more - at_start), signal, time_s));
-    steps.insert(steps.begin(), lost.begin(), lost.end());
-  }
   alternate_bridged(steps);
   detection.bridged = static_cast<std::size_t>(std::ranges::count(steps, true, &Step::bridged));
   detection.steps = std::move(steps);

@@ -43,14 +43,48 @@ TEST(StepWay, WorkedExample) {
   const std::vector<std::size_t> frames{5, 10, 15, 20};
   const vo::StepWay way(growth, time_s, frames);
   ASSERT_TRUE(way.known());
-  EXPECT_NEAR(way.step_s(10), 0.5, 1e-12);
-  EXPECT_NEAR(way.between(5, 20, 10), 3, 1e-9);
-  EXPECT_NEAR(way.between(20, 30, 20), 10 * 0.5 / 5, 1e-9);
-  EXPECT_EQ(way.between(30, 40, 20), 0);
+  EXPECT_NEAR(way.step_s(10), 0.5, 1e-12);  // rounding, as below
+  EXPECT_NEAR(way.between(5, 20), 3, 1e-9);
+  EXPECT_NEAR(way.between(20, 30), 10 * 0.5 / 5, 1e-9);
+  EXPECT_EQ(way.between(30, 40), 0);
+  EXPECT_EQ(way.after(5, 2), 15U);
+  EXPECT_EQ(way.after(20, 0.5), 25U);
+  EXPECT_EQ(way.after(30, 1), 40U);  // not reached
   EXPECT_TRUE(way.walking(10));
   EXPECT_FALSE(way.walking(36));
   EXPECT_FALSE(way.gap(10, 15));
   EXPECT_TRUE(way.gap(10, 18));  // 0.8 s are more than one and a half steps of 0.5 s
+}
+
+TEST(StepWay, IsNoneInAStandThatSways) {
+  std::vector<double> growth(61, 0.02);
+  // To and fro, by a quarter of the usual growth, twice in the time of a step.
+  for (std::size_t i = 21; i < 41; ++i) growth[i] = i % 2 == 0 ? 0.005 : -0.005;
+  const auto time_s = seconds(61);
+  const vo::StepWay way(growth, time_s, std::vector<std::size_t>{5, 10, 15, 20, 45, 50, 55, 60});
+  // Within half a step of the walk before and after, a swing to and fro may count.
+  EXPECT_EQ(way.between(23, 38), 0);
+  EXPECT_NEAR(way.between(20, 45), 1, 0.2);  // 4 frames and a half step's edge: 0.1 at each end
+}
+
+TEST(StepWay, IsMeasuredByTheStepsNearest) {
+  // Beyond a stand, all is three times as far away.
+  std::vector<double> growth(101, 0.03);
+  for (std::size_t i = 51; i < 101; ++i) growth[i] = i < 61 ? 0 : 0.01;
+  const auto time_s = seconds(101);
+  const vo::StepWay way(
+      growth, time_s,
+      std::vector<std::size_t>{5, 10, 15, 20, 25, 30, 35, 40, 45, 65, 70, 75, 80, 85, 90, 95, 100});
+  EXPECT_NEAR(way.between(45, 50), 1, 1e-9);  // rounding
+  EXPECT_NEAR(way.between(60, 65), 1, 1e-9);
+  EXPECT_EQ(way.between(51, 60), 0);
+}
+
+TEST(StepWay, IsAsLongAsThereWasTimeForWhereThePictureNeverGrows) {
+  const std::vector<double> growth(31, 0.0);
+  const auto time_s = seconds(31);
+  const vo::StepWay way(growth, time_s, std::vector<std::size_t>{5, 10, 15, 20});
+  EXPECT_NEAR(way.between(20, 30), 2, 1e-9);  // rounding
 }
 
 TEST(StepWay, OfOneStepIsNotKnown) {
@@ -62,13 +96,39 @@ TEST(StepWay, OfOneStepIsNotKnown) {
 
 TEST(CompleteSteps, FillsWhatWasLost) {
   const std::vector<double> growth(51, 0.02);
-  // Of ten whole steps, that at frame 25 is lost.
-  EXPECT_THAT(completed({5, 10, 15, 20, 30, 35, 40, 45}, growth),
+  EXPECT_THAT(completed({5, 10, 15, 20, 30, 35, 40, 45, 50}, growth),
               ElementsAre(5, 10, 15, 20, 25, 30, 35, 40, 45, 50));
-  // Cut at frame 2: 9.6 steps, of which 9 are whole.
-  EXPECT_THAT(completed({3, 8, 13, 18, 23, 28, 33, 38, 43, 48}, growth), testing::SizeIs(10));
-  EXPECT_THAT(completed({4, 9, 14, 19, 24, 29, 34, 39, 44}, std::vector<double>(49, 0.02)),
-              testing::SizeIs(9));
+  // Two before the first, and at the end the one at 45: the next would be done as the recording ends, and may
+  // not be seen.
+  EXPECT_THAT(completed({14, 19, 24, 29, 34, 39}, growth), ElementsAre(4, 9, 14, 19, 24, 29, 34, 39, 44));
+}
+
+TEST(CompleteSteps, LeavesWhatWasBegunBeforeAndWhatIsNotDone) {
+  // Wherever it is cut, up to a step lies before the first footfall and after the last.
+  for (const std::size_t first : {1U, 3U, 6U})
+    EXPECT_THAT(completed({first, first + 5, first + 10, first + 15}, std::vector<double>(first + 21, 0.02)),
+                ElementsAre(first, first + 5, first + 10, first + 15));
+}
+
+TEST(CompleteSteps, StandsWhereTheWalkerWalked) {
+  // A step to a halt, a stand, and a step from it, none of them seen but the last.
+  std::vector<double> growth(81, 0.02);
+  for (std::size_t i = 31; i < 56; ++i) growth[i] = 0;
+  EXPECT_THAT(completed({5, 10, 15, 20, 60, 65, 70, 75, 80}, growth),
+              ElementsAre(5, 10, 15, 20, 25, 30, 60, 65, 70, 75, 80));
+}
+
+TEST(CompleteSteps, LegsOfBridgedStepsAlternate) {
+  const std::vector<double> growth(51, 0.02);
+  const auto time_s = seconds(51);
+  const std::vector<std::size_t> frames{14, 19, 24, 34, 39};
+  vo::StepDetection seen = steps_at(frames, time_s);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    seen.steps[i].leg = frames[i] % 2 == 0 ? vo::Leg::kRight : vo::Leg::kLeft;
+  const auto all = vo::complete_steps(seen, vo::StepWay(growth, time_s, frames), growth, time_s);
+  ASSERT_THAT(all.steps, testing::SizeIs(9));
+  EXPECT_EQ(all.bridged, 4U);
+  for (std::size_t i = 1; i < all.steps.size(); ++i) EXPECT_NE(all.steps[i].leg, all.steps[i - 1].leg) << i;
 }
 
 TEST(CompleteSteps, KeepsTheLargerOfTwoWithNoWayBetweenThem) {
