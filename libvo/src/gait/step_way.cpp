@@ -11,6 +11,10 @@
 namespace vo {
 namespace {
 
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 /// From one step to the next.
 struct Interval {
   double middle_s = 0;
@@ -28,12 +32,13 @@ class UsualStep {
     while (begin_ + kNearest < all_.size() &&
            all_[begin_ + kNearest].middle_s - time_s < time_s - all_[begin_].middle_s)
       ++begin_;
-    std::vector<double> seconds, growth;
-    for (std::size_t i = begin_; i < std::min(all_.size(), begin_ + kNearest); ++i) {
-      seconds.push_back(all_[i].seconds);
-      growth.push_back(all_[i].growth);
-    }
-    return {.middle_s = time_s, .seconds = median(std::move(seconds)), .growth = median(std::move(growth))};
+    const auto usual = [&](double Interval::*field) {
+      std::vector<double> values;
+      for (std::size_t i = begin_; i < std::min(all_.size(), begin_ + kNearest); ++i)
+        values.push_back(all_[i].*field);
+      return median(std::move(values));
+    };
+    return {time_s, usual(&Interval::seconds), usual(&Interval::growth)};
   }
 
  private:
@@ -47,31 +52,24 @@ std::vector<Interval> whole_steps(std::span<const double> growth, std::span<cons
   std::vector<Interval> all, whole;
   for (std::size_t i = 1; i < step_frames.size(); ++i) {
     const std::size_t from = step_frames[i - 1], to = step_frames[i];
-    const auto part = growth.subspan(from + 1, to - from);
-    all.push_back(
-        {.middle_s = (time_s[from] + time_s[to]) / 2,
-         .seconds = time_s[to] - time_s[from],
-         .growth = std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(to - from)});
+    all.push_back({.middle_s = (time_s[from] + time_s[to]) / 2,
+                   .seconds = time_s[to] - time_s[from],
+                   .growth = mean(growth.subspan(from + 1, to - from))});
   }
-  UsualStep usual(all);
-  for (const Interval& step : all)
-    if (step.seconds < missed_ratio * usual.at(step.middle_s).seconds) whole.push_back(step);
+  // Who slows down takes longer than before, but not than after.
+  constexpr std::ptrdiff_t kBeside = 3;
+  const auto median_s = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::vector<double> seconds;
+    for (auto i = std::max<std::ptrdiff_t>(0, begin); i < std::min(std::ssize(all), end); ++i)
+      seconds.push_back(all[static_cast<std::size_t>(i)].seconds);
+    return seconds.empty() ? 0 : median(std::move(seconds));
+  };
+  for (std::ptrdiff_t i = 0; i < std::ssize(all); ++i) {
+    const Interval& step = all[static_cast<std::size_t>(i)];
+    const double usual_s = std::max(median_s(i - kBeside, i + 1), median_s(i, i + kBeside + 1));
+    if (step.seconds < missed_ratio * usual_s) whole.push_back(step);
+  }
   return whole;
-}
-
-/// The mean over the time of a step about each frame.
-std::vector<double> over_a_step(std::span<const double> values, std::span<const double> time_s,
-                                std::span<const double> step_s) {
-  std::vector<double> mean(values.size());
-  for (std::size_t i = 0; i < mean.size(); ++i) {
-    std::size_t begin = i, end = i + 1;
-    while (begin > 0 && time_s[i] - time_s[begin - 1] <= step_s[i] / 2) --begin;
-    while (end < mean.size() && time_s[end] - time_s[i] <= step_s[i] / 2) ++end;
-    mean[i] = std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                              values.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
-              static_cast<double>(end - begin);
-  }
-  return mean;
 }
 
 /// Bridged steps with the other leg than the step beside them.
@@ -90,31 +88,48 @@ StepWay::StepWay(std::span<const double> growth, std::span<const double> time_s,
     : time_s_(time_s), options_(options) {
   const std::vector<Interval> steps = whole_steps(growth, time_s, step_frames, options.missed_ratio);
   if (steps.empty()) return;
-  std::vector<double> usual_growth;
-  UsualStep usual(steps);
-  for (const double now_s : time_s) {
-    const Interval step = usual.at(now_s);
-    step_s_.push_back(step.seconds);
-    usual_growth.push_back(step.growth);
+  std::vector<double> speed, over_step;  // shares of the usual: growth of the frame, and about it
+  UsualStep about(steps);
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const Interval usual = about.at(time_s[i]);
+    step_s_.push_back(usual.seconds);
+    const auto share = [&](double grows) { return usual.growth > 0 ? std::abs(grows) / usual.growth : 1; };
+    const auto [begin, end] = within(i, usual.seconds / 2);
+    over_step.push_back(share(mean(growth.subspan(begin, end - begin))));
+    speed.push_back(over_step[i] < options.min_growth ? 0 : std::min(1.0, share(growth[i])));
   }
-  const std::vector<double> over_step = over_a_step(growth, time_s, step_s_);
-  way_.assign(time_s.size(), 0);
-  for (std::size_t i = 1; i < way_.size(); ++i) {
-    double cadence = 1;  // share of the usual
-    if (usual_growth[i] > 0) {
-      const bool walks = over_step[i] >= options.min_growth * usual_growth[i];
-      cadence = walks ? std::sqrt(std::clamp(growth[i] / usual_growth[i], 0.0, 1.0)) : 0;
+  walk_on(over_step, speed);
+  way_.push_back(0);
+  for (std::size_t i = 1; i < time_s.size(); ++i)
+    way_.push_back(way_.back() + std::sqrt(speed[i]) * (time_s[i] - time_s[i - 1]) / step_s_[i]);
+}
+
+void StepWay::walk_on(std::span<const double> over_step, std::vector<double>& speed) const {
+  const auto slow = [&](double share) { return share < options_.slow_growth; };
+  for (auto begin = over_step.begin(); begin != over_step.end();) {
+    begin = std::find_if(begin, over_step.end(), slow);
+    const auto end = std::find_if_not(begin, over_step.end(), slow);
+    if (begin != over_step.begin() && end != over_step.end()) {
+      const auto from = static_cast<std::size_t>(begin - over_step.begin());
+      const auto to = static_cast<std::size_t>(end - over_step.begin());
+      if (time_s_[to] - time_s_[from] < options_.min_stand * step_s_[from])
+        std::fill(speed.begin() + (begin - over_step.begin()), speed.begin() + (end - over_step.begin()),
+                  1.0);
     }
-    way_[i] = way_[i - 1] + cadence * (time_s[i] - time_s[i - 1]) / step_s_[i];
+    begin = end;
   }
 }
 
+std::pair<std::size_t, std::size_t> StepWay::within(std::size_t frame, double seconds) const {
+  std::size_t begin = frame, end = frame + 1;
+  while (begin > 0 && time_s_[frame] - time_s_[begin - 1] <= seconds) --begin;
+  while (end < time_s_.size() && time_s_[end] - time_s_[frame] <= seconds) ++end;
+  return {begin, end};
+}
+
 bool StepWay::walking(std::size_t frame) const {
-  const double half_s = step_s_[frame] / 2;
-  std::size_t a = frame, b = frame;
-  while (a > 0 && time_s_[frame] - time_s_[a] < half_s) --a;
-  while (b + 1 < time_s_.size() && time_s_[b] - time_s_[frame] < half_s) ++b;
-  return between(a, b) >= options_.min_way;
+  const auto [begin, end] = within(frame, step_s_[frame] / 2);
+  return between(begin, end - 1) >= options_.min_way;
 }
 
 bool StepWay::gap(std::size_t a, std::size_t b) const {

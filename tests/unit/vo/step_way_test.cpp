@@ -38,14 +38,14 @@ std::vector<std::size_t> completed(const std::vector<std::size_t>& frames,
 TEST(StepWay, WorkedExample) {
   std::vector<double> growth(41, 0.02);
   for (std::size_t i = 21; i < 31; ++i) growth[i] = 0.005;  // a quarter as fast: half the cadence
-  for (std::size_t i = 31; i < 41; ++i) growth[i] = 0.001;  // below 15 %: stands
+  for (std::size_t i = 31; i < 41; ++i) growth[i] = 0.001;  // 5 %: stands
   const auto time_s = seconds(41);
   const std::vector<std::size_t> frames{5, 10, 15, 20};
   const vo::StepWay way(growth, time_s, frames);
   ASSERT_TRUE(way.known());
   EXPECT_NEAR(way.step_s(10), 0.5, 1e-12);  // rounding, as below
   EXPECT_NEAR(way.between(5, 20), 3, 1e-9);
-  EXPECT_NEAR(way.between(20, 30), 10 * 0.5 / 5, 1e-9);
+  EXPECT_NEAR(way.between(20, 28), 8 * 0.5 / 5, 1e-9);
   EXPECT_EQ(way.between(30, 40), 0);
   EXPECT_EQ(way.after(5, 2), 15U);
   EXPECT_EQ(way.after(20, 0.5), 25U);
@@ -62,9 +62,19 @@ TEST(StepWay, IsNoneInAStandThatSways) {
   for (std::size_t i = 21; i < 41; ++i) growth[i] = i % 2 == 0 ? 0.005 : -0.005;
   const auto time_s = seconds(61);
   const vo::StepWay way(growth, time_s, std::vector<std::size_t>{5, 10, 15, 20, 45, 50, 55, 60});
-  // Within half a step of the walk before and after, a swing to and fro may count.
   EXPECT_EQ(way.between(23, 38), 0);
-  EXPECT_NEAR(way.between(20, 45), 1, 0.2);  // 4 frames and a half step's edge: 0.1 at each end
+  // The step after it, and at each end of the stand up to two frames at half the cadence.
+  EXPECT_NEAR(way.between(20, 45), 1.2, 0.21);
+}
+
+TEST(StepWay, GoesOnWhereThePictureTurnsFromGrowthToShrinking) {
+  std::vector<double> growth(61, 0.02);
+  for (std::size_t i = 21; i < 41; ++i) growth[i] = 0.02 - 0.004 * (static_cast<double>(i) - 20);
+  for (std::size_t i = 31; i < 41; ++i) growth[i] = -growth[61 - i + 10];
+  const auto time_s = seconds(61);
+  const vo::StepWay way(growth, time_s, std::vector<std::size_t>{5, 10, 15, 20, 45, 50, 55, 60});
+  // The frames about 0 count whole; the others, at less than half the growth, by its square root.
+  EXPECT_NEAR(way.between(20, 45), 5, 0.7);
 }
 
 TEST(StepWay, IsMeasuredByTheStepsNearest) {

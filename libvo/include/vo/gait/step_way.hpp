@@ -11,8 +11,10 @@ namespace vo {
 
 /// Settings of `StepWay`.
 struct StepWayOptions {
-  double min_growth = 0.15;   ///< share of the usual growth, over the time of a step, from which one walks
-  double min_way = 0.3;       ///< steps in the time of one, about a frame at which one walks
+  double min_growth = 0.2;   ///< share of the usual growth, over the time of a step, from which one walks
+  double slow_growth = 0.5;  ///< share of the usual growth, over the time of a step, below which one may halt
+  double min_stand = 2;      ///< steps: to stop and start again takes no less than their time
+  double min_way = 0.3;      ///< steps in the time of one, about a frame at which one walks
   double missed_ratio = 1.5;  ///< of a usual step: a longer gap may have lost steps, or be a stand
 };
 
@@ -51,6 +53,12 @@ class StepWay {
   [[nodiscard]] double step_s(std::size_t frame) const { return step_s_[frame]; }
 
  private:
+  /// Frames within so many seconds of one: the first, and the one after the last.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> within(std::size_t frame, double seconds) const;
+
+  /// Sets the usual speed where the growth is low for less time than a stand takes.
+  void walk_on(std::span<const double> over_step, std::vector<double>& speed) const;
+
   std::span<const double> time_s_;
   StepWayOptions options_;
   std::vector<double> step_s_;  // usual, about each frame
