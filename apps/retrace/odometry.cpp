@@ -190,7 +190,7 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   vo::PedestrianMotionOptions& pedestrian = settings.sampling.motion.pedestrian;
   if (options.walk_length_m) {
-    const std::size_t steps = vo::pedestrian_motion(walk, pedestrian).detection.steps.size();
+    const double steps = vo::steps_made(vo::pedestrian_motion(walk, pedestrian).detection);
     if (steps == 0) {
       throw vo::Error(options.walk, "shows no steps", "a walk of the length given with --walk-length-m");
     }

@@ -168,10 +168,10 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
   motion.detection = std::move(reading.detection);
   const std::vector<Step>& steps = motion.detection.steps;
   motion.step_length_m = step_lengths_m(steps, options.step_length);  // 5.3 (4)
-  motion.displacement_m =
-      step_displacement_m(steps, motion.step_length_m, walk.time_s, options.dead_reckoning);
+  motion.displacement_m = step_displacement_m(steps, motion.step_length_m, walk.time_s,
+                                              motion.detection.partial, options.dead_reckoning);
   motion.trajectory = dead_reckon(steps, motion.step_length_m, motion.signal.heading_rad, walk.time_s,
-                                  options.dead_reckoning);  // 4.6
+                                  motion.detection.partial, options.dead_reckoning);  // 4.6
   motion.activity = detect_activity(values_of(reading.stride, motion.signal), walk.time_s,
                                     motion.signal.reliable, options.activity);
   return motion;

@@ -172,6 +172,8 @@ StepDetection complete_steps(StepDetection detection, const StepWay& way, std::s
   const double after = way.between(last, time_s.size() - 1);
   for (double k = 1; k <= lost(after); ++k) add_lost(way.after(last, k));
 
+  detection.partial = {.first = std::min(1.0, way.between(0, steps.front().frame)),
+                       .after = std::min(1.0, way.between(steps.back().frame, time_s.size() - 1))};
   alternate_bridged(steps);
   detection.bridged = static_cast<std::size_t>(std::ranges::count(steps, true, &Step::bridged));
   detection.steps = std::move(steps);

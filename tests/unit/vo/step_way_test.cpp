@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -69,12 +70,12 @@ TEST(StepWay, IsNoneInAStandThatSways) {
 
 TEST(StepWay, GoesOnWhereThePictureTurnsFromGrowthToShrinking) {
   std::vector<double> growth(61, 0.02);
-  for (std::size_t i = 21; i < 41; ++i) growth[i] = 0.02 - 0.004 * (static_cast<double>(i) - 20);
-  for (std::size_t i = 31; i < 41; ++i) growth[i] = -growth[61 - i + 10];
+  for (std::size_t i = 21; i < 41; ++i)
+    growth[i] = 0.02 * std::cos(std::numbers::pi * (static_cast<double>(i) - 20) / 10);
   const auto time_s = seconds(61);
   const vo::StepWay way(growth, time_s, std::vector<std::size_t>{5, 10, 15, 20, 45, 50, 55, 60});
   // The frames about 0 count whole; the others, at less than half the growth, by its square root.
-  EXPECT_NEAR(way.between(20, 45), 5, 0.7);
+  EXPECT_NEAR(way.between(20, 45), 4.8, 0.2);
 }
 
 TEST(StepWay, IsMeasuredByTheStepsNearest) {
@@ -118,6 +119,18 @@ TEST(CompleteSteps, LeavesWhatWasBegunBeforeAndWhatIsNotDone) {
   for (const std::size_t first : {1U, 3U, 6U})
     EXPECT_THAT(completed({first, first + 5, first + 10, first + 15}, std::vector<double>(first + 21, 0.02)),
                 ElementsAre(first, first + 5, first + 10, first + 15));
+}
+
+TEST(CompleteSteps, TellsWhatIsMadeOfThoseAtTheEnds) {
+  const std::vector<double> growth(22, 0.02);
+  const auto time_s = seconds(22);
+  const std::vector<std::size_t> frames{3, 8, 13, 18};
+  const auto all =
+      vo::complete_steps(steps_at(frames, time_s), vo::StepWay(growth, time_s, frames), growth, time_s);
+  EXPECT_NEAR(all.partial.first, 3 / 5.0, 1e-9);  // rounding
+  EXPECT_NEAR(all.partial.after, 3 / 5.0, 1e-9);
+  EXPECT_NEAR(vo::steps_made(all), 21 / 5.0, 1e-9);
+  EXPECT_EQ(vo::steps_made({}), 0);
 }
 
 TEST(CompleteSteps, StandsWhereTheWalkerWalked) {

@@ -72,7 +72,8 @@ class StepWay {
 /// of the next start. Where it is none, the step before the gap is the one after it, and the larger stays. A
 /// recording begins and ends within a step, or with the half step from or to a stand: before the first step
 /// and after the last, some were lost if the way there is clearly longer than one. Steps added are marked as
-/// bridged, stand where the way says, and alternate. O(frames + steps * log frames).
+/// bridged, stand where the way says, and alternate. What is left of the way at both ends is `partial`.
+/// O(frames + steps * log frames).
 StepDetection complete_steps(StepDetection detection, const StepWay& way, std::span<const double> signal,
                              std::span<const double> time_s);
 
