@@ -19,11 +19,11 @@ class BouncingWalk {
   explicit BouncingWalk(double phase = 0) : phase_(phase) {}
 
   /// Goes on for so many steps, which need not be whole, where the last piece left off.
-  BouncingWalk& walk(double steps, double step_hz, double bounce_px = 2) {
+  BouncingWalk& walk(double steps, double step_hz, double bounce_px = 2, double growth = 0.01) {
     const auto frames = std::lround(steps / step_hz * kRate_hz);
     for (long i = 0; i < frames; ++i) {
       phase_ += steps / static_cast<double>(frames);
-      push(-bounce_px * std::cos(2 * std::numbers::pi * phase_), 0.01, true);
+      push(-bounce_px * std::cos(2 * std::numbers::pi * phase_), growth, true);
     }
     return *this;
   }

@@ -158,9 +158,7 @@ StepDetection complete_steps(StepDetection detection, const StepWay& way, std::s
   for (const Step& step : std::span(detection.steps).subspan(1)) {
     const std::size_t from = steps.back().frame;
     const double length = way.between(from, step.frame);
-    constexpr double kStand = 3;  // steps: to stop and start again takes no less time
-    const double least = time_s[step.frame] - time_s[from] < kStand * way.step_s(step.frame) ? 1 : 0;
-    const double count = way.gap(from, step.frame) ? std::max(least, std::round(length)) : 1;
+    const double count = way.gap(from, step.frame) ? std::round(length) : 1;
     if (count >= 1) {
       for (double k = 1; k < count; ++k) add_lost(way.after(from, length * k / count));
       steps.push_back(step);

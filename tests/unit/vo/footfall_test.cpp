@@ -1,6 +1,8 @@
 #include "support/bouncing_walk.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -54,6 +56,38 @@ TEST(DetectFootfalls, HalfAStepBeforeAStandAndHalfAfterItAreOne) {
     const bool walked = (step.time_s > 4 && step.time_s < 14.1) || (step.time_s > 18 && step.time_s < 28.2);
     EXPECT_TRUE(walked) << step.time_s;
   }
+}
+
+TEST(DetectFootfalls, DoesNotCountTheSwingOutAfterTheLast) {
+  // The feet come together at half a step; the trunk goes on to less than half the depth of a footfall while
+  // the picture still grows a little.
+  const BouncingWalk walk = BouncingWalk().walk(20.5, 2).walk(0.9, 2, 0.8, 0.002).stand(4);
+  EXPECT_THAT(detect(walk).steps, SizeIs(20));
+}
+
+TEST(DetectFootfalls, LosesAndAddsNoneWhenTheWalkerSlowsDown) {
+  const BouncingWalk walk = BouncingWalk().walk(20, 2.4).walk(20.3, 1.4);
+  EXPECT_THAT(detect(walk).steps, SizeIs(walk.steps()));
+}
+
+TEST(DetectFootfalls, SeesNoneAtFramesThatAreNotReliable) {
+  const BouncingWalk walk = BouncingWalk().walk(20.5, 2);
+  std::vector<bool> reliable = walk.reliable();
+  std::fill(reliable.begin() + 120, reliable.begin() + 131, false);  // the tenth falls at frame 125
+  const auto found = vo::detect_footfalls(walk.bounce_px(), walk.growth(), walk.time_s(), reliable, {});
+  ASSERT_THAT(found.steps, SizeIs(20));
+  EXPECT_EQ(found.bridged, 1U);
+  EXPECT_TRUE(found.steps[9].bridged);
+}
+
+TEST(DetectFootfalls, CountsNoShallowOrDoubleValley) {
+  // Noise of an eighth of the bounce, five times as fast.
+  const BouncingWalk walk = BouncingWalk().walk(20.5, 2);
+  std::vector<double> bounce_px = walk.bounce_px();
+  for (std::size_t i = 0; i < bounce_px.size(); ++i)
+    bounce_px[i] += 0.25 * std::cos(2 * std::numbers::pi * 10 * walk.time_s()[i]);
+  EXPECT_THAT(vo::detect_footfalls(bounce_px, walk.growth(), walk.time_s(), walk.reliable(), {}).steps,
+              SizeIs(20));
 }
 
 TEST(DetectFootfalls, FindsNoneInAStand) {
