@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -61,12 +60,12 @@ TEST(DetectFootfalls, HalfAStepBeforeAStandAndHalfAfterItAreOne) {
 TEST(DetectFootfalls, DoesNotCountTheSwingOutAfterTheLast) {
   // The feet come together at half a step; the trunk goes on to less than half the depth of a footfall while
   // the picture still grows a little.
-  const BouncingWalk walk = BouncingWalk().walk(20.5, 2).walk(0.9, 2, 0.8, 0.002).stand(4);
+  const BouncingWalk walk = BouncingWalk().walk(20.4, 2).walk(0.9, 2, 0.8, 0.003).stand(4);
   EXPECT_THAT(detect(walk).steps, SizeIs(20));
 }
 
 TEST(DetectFootfalls, LosesAndAddsNoneWhenTheWalkerSlowsDown) {
-  const BouncingWalk walk = BouncingWalk().walk(20, 2.4).walk(20.3, 1.4);
+  const BouncingWalk walk = BouncingWalk().walk(20, 2.9).walk(20.3, 1.5);
   EXPECT_THAT(detect(walk).steps, SizeIs(walk.steps()));
 }
 
@@ -80,14 +79,18 @@ TEST(DetectFootfalls, SeesNoneAtFramesThatAreNotReliable) {
   EXPECT_TRUE(found.steps[9].bridged);
 }
 
-TEST(DetectFootfalls, CountsNoShallowOrDoubleValley) {
-  // Noise of an eighth of the bounce, five times as fast.
-  const BouncingWalk walk = BouncingWalk().walk(20.5, 2);
+TEST(DetectFootfalls, OfTwoValleysInHalfAStepCountsTheDeeper) {
+  const BouncingWalk walk = BouncingWalk().walk(20.5, BouncingWalk::kRate_hz / 12);
   std::vector<double> bounce_px = walk.bounce_px();
-  for (std::size_t i = 0; i < bounce_px.size(); ++i)
-    bounce_px[i] += 0.25 * std::cos(2 * std::numbers::pi * 10 * walk.time_s()[i]);
-  EXPECT_THAT(vo::detect_footfalls(bounce_px, walk.growth(), walk.time_s(), walk.reliable(), {}).steps,
-              SizeIs(20));
+  std::vector<std::size_t> deepest;
+  for (std::size_t bottom = 11; bottom < 240; bottom += 12) {
+    bounce_px[bottom] += 0.8;
+    bounce_px[bottom - 1] += 0.4;
+    deepest.push_back(bottom + 1);
+  }
+  const auto found = vo::detect_footfalls(bounce_px, walk.growth(), walk.time_s(), walk.reliable(), {});
+  ASSERT_THAT(found.steps, SizeIs(20));
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(found.steps[i].frame, deepest[i]) << i;
 }
 
 TEST(DetectFootfalls, FindsNoneInAStand) {

@@ -91,6 +91,18 @@ TEST(StepWay, IsMeasuredByTheStepsNearest) {
   EXPECT_EQ(way.between(51, 60), 0);
 }
 
+TEST(StepWay, StepsOfASlowerPaceAreNotGaps) {
+  const std::vector<double> growth(57, 0.02);
+  const auto time_s = seconds(57);
+  const vo::StepWay way(growth, time_s, std::vector<std::size_t>{4, 8, 12, 16, 20, 24, 32, 40, 48, 56});
+  EXPECT_FALSE(way.gap(24, 32));
+  EXPECT_NEAR(way.step_s(28), 0.6, 1e-9);  // of the six nearest, three take 0.4 s and three 0.8 s
+  // Twice as long as those before and after, it is one.
+  const vo::StepWay lost(growth, time_s, std::vector<std::size_t>{4, 8, 12, 16, 24, 28, 32, 36, 40});
+  EXPECT_TRUE(lost.gap(16, 24));
+  EXPECT_NEAR(lost.step_s(20), 0.4, 1e-9);
+}
+
 TEST(StepWay, IsAsLongAsThereWasTimeForWhereThePictureNeverGrows) {
   const auto time_s = seconds(31);
   for (const double none : {0.0, -0.01}) {
