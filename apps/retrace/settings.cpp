@@ -85,7 +85,7 @@ void add_sampling_options(CLI::App& app, Settings& s) {
   add(app, kSampling, "--every", s.sampling.sampling.every, "frames between keyframes, with --motion none")
       ->check(CLI::Range(1, 1000000));
   add(app, kSampling, "--sampling-n", s.sampling.sampling.n,
-      "n of SSS Eq. 4, larger for fewer keyframes; motion in metres has 0.7 m between them if this is not "
+      "n of SSS Eq. 4, larger for fewer keyframes; motion in metres has 0.85 m between them if this is not "
       "given")
       ->check(CLI::Range(0.01, 1000.0));
   add(app, kSampling, "--spacing-m", s.sampling.sampling.spacing_m,

@@ -198,7 +198,8 @@ SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse
 
   sampled.scale =
       relative_scale(vo::patch_normalise(sampled.thumbnails, route.patch),
-                     vo::patch_normalise(reference->thumbnails, route.patch), options.relative_scale);
+                     vo::patch_normalise(reference->thumbnails, route.patch),
+                     motion.metric && route.sampling.metric ? options.metric_scale : options.relative_scale);
   for (double& step : sampled.displacement) step *= sampled.scale;
   sampled.frames = resample(sampled.displacement, sampled.unit);
   sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);

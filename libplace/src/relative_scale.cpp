@@ -29,7 +29,7 @@ double relative_scale(const vo::ImageStack& query, const vo::ImageStack& referen
   if (!(options.largest > 1) || options.steps < 3 || options.length < 2) {
     throw std::invalid_argument("relative_scale: largest > 1, steps >= 3 and length >= 2 expected");
   }
-  if (std::min(query.size(), reference.size()) < 2 * static_cast<std::size_t>(options.length)) return 1;
+  if (2 * std::min(query.size(), reference.size()) < 3 * static_cast<std::size_t>(options.length)) return 1;
 
   if (reference.size() > options.largest_reference) {
     const auto likely = candidates(query, reference);

@@ -26,6 +26,9 @@ struct WalkSamplingOptions {
   Sampling sampling;
   bool tie_scale = true;  ///< bring a walk to the spacing of the route's first traverse (`relative_scale`)
   RelativeScaleOptions relative_scale;
+  /// The same where both walks are in metres: by their steps, whose lengths differ by a tenth or two where
+  /// speeds differ by half.
+  RelativeScaleOptions metric_scale{.prior_weight = 1};
 };
 
 /// A walk cut down to its keyframes.

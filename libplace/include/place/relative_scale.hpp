@@ -27,8 +27,8 @@ struct RelativeScaleOptions {
 /// the whole standardised matrix; the right slope is the one whose best lines are cheapest on average.
 ///
 /// `query`, `reference`: descriptors of keyframes, of one size. Returns 1 if either has fewer than
-/// 2 * length keyframes: too few to tell. O(queries * references * (pixels + steps * length)), in parallel
-/// over queries.
+/// 3 / 2 * length keyframes: too few to tell. O(queries * references * (pixels + steps * length)), in
+/// parallel over queries.
 double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
                       const RelativeScaleOptions& options = {});
 

@@ -80,6 +80,9 @@ TEST(RelativeScale, OfAlmostNothingIsOne) {
   EXPECT_EQ(place::relative_scale(walk(0, 1, 1), reference), 1);
   EXPECT_EQ(place::relative_scale(reference, walk(0, 1, 1)), 1);
   EXPECT_EQ(place::relative_scale(walk(0, 1, 0), reference), 1);
+  const auto sixteen = walk(10, 1.5, 16), fourteen = walk(10, 1.5, 14);
+  EXPECT_NEAR(place::relative_scale(sixteen, walk(0, 1, 60)), 1.5, 1.5 * kAccuracy);
+  EXPECT_EQ(place::relative_scale(fourteen, walk(0, 1, 60)), 1);
   EXPECT_TRUE(std::isfinite(place::relative_scale(walk(0, 1, 2), walk(0, 1, 2))));
 }
 
