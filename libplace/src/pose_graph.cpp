@@ -292,7 +292,9 @@ Prior prior_at_start(const State& state, bool pose_known, const DriftCorrectionO
 }
 
 bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_convex) {
-  constexpr double kStep = 2;  // between stages
+  // Between stages; Yang et al. take 1.4. Walks with up to 70 % of their matches wrong come out the same with
+  // 2 and 8, in time that goes with the number of stages.
+  constexpr double kStep = 4;
   constexpr int kIterations = 6, kLastIterations = 30, kMostRounds = 5;
   constexpr double kTolerance = 1e-3, kLastTolerance = 1e-7, kSettled = 0.01;
   const std::vector<State> before = graph.states;
