@@ -52,7 +52,7 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
       "frame,time_s,displacement,unit,source,orientation_deg,dx_px,matches,heading_deg,"
       "step_signal,step_threshold,reliable,x_m,y_m,displacement_sigma\n";
   const vo::PedestrianMotion& gait = *motion.pedestrian;
-  const std::vector<double>& signal = vo::step_signal(gait);
+  const std::vector<double>& signal = vo::values_of(gait.step_signal, gait.signal);
   const std::string_view unit = unit_of(walk, motion);
   for (std::size_t i = 0; i < walk.frames(); ++i) {
     const vo::FrameMotion& tracked = walk.tracked[i];
@@ -190,7 +190,7 @@ void odometry(const CLI::App& app, OdometryOptions& options) {
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   vo::PedestrianMotionOptions& pedestrian = settings.sampling.motion.pedestrian;
   if (options.walk_length_m) {
-    const std::size_t steps = vo::pedestrian_motion(walk, pedestrian).detection.steps.size();
+    const double steps = vo::steps_made(vo::pedestrian_motion(walk, pedestrian).detection);
     if (steps == 0) {
       throw vo::Error(options.walk, "shows no steps", "a walk of the length given with --walk-length-m");
     }

@@ -158,14 +158,14 @@ void add_odometry_options(CLI::App& app, Settings& s) {
       ->check(CLI::PositiveNumber);
   using vo::StepSignal;
   add_choice(
-      app, kOdometry, "--step-signal", pedestrian.step_signal,
+      app, kOdometry, "--step-signal", pedestrian.steps.signal,
       {{"auto", std::nullopt},
        {"bounce", StepSignal::kBounce},
        {"orientation", StepSignal::kOrientation},
        {"shift", StepSignal::kShift}},
       "what steps are read from: the picture's bounce, orientation alone [PVO 4.4], or x shift; auto: the "
       "bounce, unless another is like gait for longer");
-  add(app, kOdometry, "--min-step-deg", pedestrian.steps.delta_min_deg,
+  add(app, kOdometry, "--min-step-deg", pedestrian.steps.detection.delta_min_deg,
       "degrees of orientation change a frame, the static threshold; learned from the walk if not given [PVO "
       "4.4]")
       ->check(CLI::PositiveNumber);

@@ -150,60 +150,6 @@ VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options)
   return motion;
 }
 
-const std::vector<double>& step_signal(const PedestrianMotion& motion) {
-  switch (motion.step_signal) {
-    case StepSignal::kBounce:
-      return motion.signal.bounce_px;
-    case StepSignal::kShift:
-      return motion.signal.filtered_shift_px;
-    case StepSignal::kOrientation:
-      break;
-  }
-  return motion.signal.filtered_orientation_deg;
-}
-
-namespace {
-
-/// Reads the steps from the signal asked for, or the one that shows them best (PVO 4.4). Returns the signal
-/// that shows the stride.
-StepSignal find_steps(const Walk& walk, const PedestrianMotionOptions& options, PedestrianMotion& motion) {
-  const GaitSignal& signal = motion.signal;
-  const auto detect = [&](const std::vector<double>& values) {
-    return detect_steps(values, walk.time_s, signal.reliable, options.steps);
-  };
-  StepDetection by_orientation = detect(signal.filtered_orientation_deg);
-  std::optional<StepSignal> asked = options.step_signal;
-  if (options.steps.delta_min_deg) asked = StepSignal::kOrientation;
-  if (asked == StepSignal::kOrientation) {
-    motion.detection = std::move(by_orientation);
-    return StepSignal::kOrientation;
-  }
-  StepDetection by_shift = detect(signal.filtered_shift_px);
-  StepDetection by_bounce = detect_footfalls(signal.bounce_px, signal.growth, walk.time_s, signal.reliable,
-                                             by_orientation.steps, options.footfalls);
-  constexpr double kAsMuch = 0.9;  // windows at the two ends of a walk differ by chance
-  const double others = std::max(by_orientation.gait_share, by_shift.gait_share);
-  if (!asked && !by_bounce.steps.empty() && by_bounce.gait_share >= kAsMuch * others)
-    asked = StepSignal::kBounce;
-  if (!asked && by_orientation.steps.empty() && !by_shift.steps.empty()) asked = StepSignal::kShift;
-  motion.step_signal = asked.value_or(StepSignal::kOrientation);
-  if (asked == StepSignal::kBounce) {
-    motion.detection = std::move(by_bounce);
-  } else if (asked == StepSignal::kShift) {
-    std::vector<std::size_t> frames;
-    for (const Step& step : by_shift.steps) frames.push_back(step.frame);
-    const StepWay way(signal.growth, walk.time_s, frames, options.footfalls.way);
-    motion.detection = complete_steps(std::move(by_shift), way, signal.filtered_shift_px, walk.time_s);
-  } else {
-    std::vector<std::size_t> matches;
-    for (const FrameMotion& frame : walk.tracked) matches.push_back(frame.matches);
-    motion.detection = fill_steps(by_orientation, by_shift, matches, walk.time_s, options.fusion);
-  }
-  return by_orientation.gait_share > 0 ? StepSignal::kOrientation : StepSignal::kShift;
-}
-
-}  // namespace
-
 PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptions& options) {
   if (walk.tracked.size() != walk.frames()) {
     throw std::invalid_argument("pedestrian_motion: a walk read with track_features expected");
@@ -215,17 +161,19 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
   }
   PedestrianMotion motion;
   motion.signal = gait_signal(walk.tracked, walk.time_s, options.signal);  // PVO 4.3, 4.5
-  const GaitSignal& signal = motion.signal;
-  const StepSignal stride = find_steps(walk, options, motion);  // 4.4
+  std::vector<std::size_t> matches;
+  for (const FrameMotion& frame : walk.tracked) matches.push_back(frame.matches);
+  StepReading reading = read_steps(motion.signal, matches, walk.time_s, options.steps);  // 4.4
+  motion.step_signal = reading.signal;
+  motion.detection = std::move(reading.detection);
   const std::vector<Step>& steps = motion.detection.steps;
   motion.step_length_m = step_lengths_m(steps, options.step_length);  // 5.3 (4)
-  motion.displacement_m =
-      step_displacement_m(steps, motion.step_length_m, walk.time_s, options.dead_reckoning);
-  motion.trajectory = dead_reckon(steps, motion.step_length_m, signal.heading_rad, walk.time_s,
-                                  options.dead_reckoning);  // 4.6
-  motion.activity = detect_activity(
-      stride == StepSignal::kShift ? signal.filtered_shift_px : signal.filtered_orientation_deg, walk.time_s,
-      signal.reliable, options.activity);
+  motion.displacement_m = step_displacement_m(steps, motion.step_length_m, walk.time_s,
+                                              motion.detection.partial, options.dead_reckoning);
+  motion.trajectory = dead_reckon(steps, motion.step_length_m, motion.signal.heading_rad, walk.time_s,
+                                  motion.detection.partial, options.dead_reckoning);  // 4.6
+  motion.activity = detect_activity(values_of(reading.stride, motion.signal), walk.time_s,
+                                    motion.signal.reliable, options.activity);
   return motion;
 }
 

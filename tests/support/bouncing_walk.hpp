@@ -15,14 +15,15 @@ class BouncingWalk {
  public:
   static constexpr double kRate_hz = 25;
 
-  explicit BouncingWalk(std::uint64_t seed = 1) : rng_(seed) {}
+  /// `phase`: share of a step that was made before.
+  explicit BouncingWalk(double phase = 0) : phase_(phase) {}
 
   /// Goes on for so many steps, which need not be whole, where the last piece left off.
-  BouncingWalk& walk(double steps, double step_hz, double bounce_px = 2) {
+  BouncingWalk& walk(double steps, double step_hz, double bounce_px = 2, double growth = 0.01) {
     const auto frames = std::lround(steps / step_hz * kRate_hz);
     for (long i = 0; i < frames; ++i) {
       phase_ += steps / static_cast<double>(frames);
-      push(-bounce_px * std::cos(2 * std::numbers::pi * phase_), 0.01, true);
+      push(-bounce_px * std::cos(2 * std::numbers::pi * phase_), growth, true);
     }
     return *this;
   }
@@ -62,8 +63,8 @@ class BouncingWalk {
     reliable_.push_back(reliable);
   }
 
-  vo::Rng rng_;
-  double phase_ = 0;
+  vo::Rng rng_{1};
+  double phase_;
   std::vector<double> bounce_px_, growth_, time_s_;
   std::vector<bool> reliable_;
 };

@@ -4,11 +4,9 @@
 #include "vo/gait/activity.hpp"
 #include "vo/gait/dead_reckoning.hpp"
 #include "vo/gait/feature_tracker.hpp"
-#include "vo/gait/footfall.hpp"
 #include "vo/gait/gait_signal.hpp"
-#include "vo/gait/step_detection.hpp"
-#include "vo/gait/step_fusion.hpp"
 #include "vo/gait/step_length.hpp"
+#include "vo/gait/step_reading.hpp"
 #include "vo/image/image_stack.hpp"
 #include "vo/image/patch_normalisation.hpp"
 #include "vo/image/thumbnail.hpp"
@@ -90,23 +88,10 @@ struct VisualMotion {
 /// still throughout).
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options = {});
 
-/// What steps are read from.
-enum class StepSignal {
-  kOrientation,  ///< the camera rolls with each stride [PVO]
-  kBounce,       ///< the picture moves up and down with each step
-  kShift,  ///< it swings from side to side: where nothing else is like gait, as with cameras that hold their
-           ///< horizon and height steady; legs are then a guess
-};
-
 /// Settings of `pedestrian_motion`.
 struct PedestrianMotionOptions {
-  /// None: the bounce, unless another shows gait in more of the walk; the orientation if its static threshold
-  /// is given.
-  std::optional<StepSignal> step_signal;
   GaitSignalOptions signal;
-  StepDetectionOptions steps;
-  FootfallOptions footfalls;
-  StepFusionOptions fusion;
+  StepReadingOptions steps;
   StepLengthOptions step_length;
   DeadReckoningOptions dead_reckoning;
   ActivityOptions activity;
@@ -122,9 +107,6 @@ struct PedestrianMotion {
   DeadReckoning trajectory;                           ///< from (0, 0), heading 0
   std::vector<ActivitySecond> activity;
 };
-
-/// The low-passed signal that the steps were read from, one value for each frame.
-const std::vector<double>& step_signal(const PedestrianMotion& motion);
 
 /// Gait signal -> steps -> step lengths -> displacement and trajectory, of a walk read with `track_features`.
 /// Throws `std::invalid_argument` for one without, `vo::Error` naming a walk whose frame rate is too low to

@@ -51,44 +51,55 @@ std::vector<double> durations_s(std::span<const double> done_s, double pause_s) 
 }  // namespace
 
 std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<const double> lengths_m,
-                                        std::span<const double> time_s, const DeadReckoningOptions& options) {
+                                        std::span<const double> time_s, const PartialSteps& partial,
+                                        const DeadReckoningOptions& options) {
   if (lengths_m.size() != steps.size())
     throw std::invalid_argument("step_displacement_m: one length per step expected");
+  if (!(partial.first >= 0 && partial.first <= 1 && partial.after >= 0 && partial.after <= 1))
+    throw std::invalid_argument("step_displacement_m: shares of a step from 0 to 1 expected");
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i].frame <= (i == 0 ? 0 : steps[i - 1].frame) || steps[i].frame >= time_s.size())
       throw std::invalid_argument("step_displacement_m: frames that increase, of the walk, expected");
   }
   std::vector<double> displacement_m(time_s.size(), 0);
-  const std::vector<double> done_s = even_times_s(steps, options.pause_s);
-  const std::vector<double> duration_s = durations_s(done_s, options.pause_s);
-  double whole_m = 0, before_m = 0;                       // of the steps done; up to the frame before
-  double before_s = time_s.empty() ? 0 : time_s.front();  // when the step before was done
+  if (steps.empty()) return displacement_m;
+  std::vector<double> done_s = even_times_s(steps, options.pause_s);
+  std::vector<double> duration_s = durations_s(done_s, options.pause_s);
+  std::vector<double> way_m(lengths_m.begin(), lengths_m.end());
+  way_m.push_back(partial.after * way_m.back());
+  duration_s.push_back(partial.after * duration_s.back());
+  done_s.push_back(done_s.back() + duration_s.back());
+  way_m.front() *= partial.first;
+  duration_s.front() *= partial.first;
+
+  double whole_m = 0, before_m = 0;  // of the steps done; up to the frame before
+  double before_s = time_s.front();  // when the step before was done
   std::size_t step = 0;
   for (std::size_t frame = 1; frame < time_s.size(); ++frame) {
-    double way_m = whole_m;
-    for (; step < steps.size(); ++step) {
+    double here_m = whole_m;
+    for (; step < way_m.size(); ++step) {
       const double end_s = std::clamp(done_s[step], before_s, time_s.back());
       const double begin_s = std::clamp(end_s - duration_s[step], before_s, end_s);
       if (end_s > time_s[frame]) {
         const double share = (time_s[frame] - begin_s) / (end_s - begin_s);
-        way_m = whole_m + std::max(0.0, share) * lengths_m[step];
+        here_m = whole_m + std::max(0.0, share) * way_m[step];
         break;
       }
-      way_m = whole_m += lengths_m[step];
+      here_m = whole_m += way_m[step];
       before_s = end_s;
     }
-    displacement_m[frame] = way_m - before_m;
-    before_m = way_m;
+    displacement_m[frame] = here_m - before_m;
+    before_m = here_m;
   }
   return displacement_m;
 }
 
 DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> lengths_m,
                           std::span<const double> heading_rad, std::span<const double> time_s,
-                          const DeadReckoningOptions& options) {
+                          const PartialSteps& partial, const DeadReckoningOptions& options) {
   if (heading_rad.size() != time_s.size())
     throw std::invalid_argument("dead_reckon: one heading per frame expected");
-  const std::vector<double> displacement_m = step_displacement_m(steps, lengths_m, time_s, options);
+  const std::vector<double> displacement_m = step_displacement_m(steps, lengths_m, time_s, partial, options);
   DeadReckoning walk;
   double x_m = 0, y_m = 0;
   std::size_t frame = 0;
@@ -106,7 +117,7 @@ DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> l
                                                      : wrap_angle_rad(heading_rad[step.frame]);
     walk.at_step.push_back({x_m, y_m, heading});
   }
-  while (frame < time_s.size()) go_on(0, 0);
+  while (frame < time_s.size()) go_on(displacement_m[frame], heading_rad[frame]);
   return walk;
 }
 

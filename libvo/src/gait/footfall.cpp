@@ -110,7 +110,7 @@ StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<cons
   const auto swings_out = [&](std::size_t i, std::size_t from, std::size_t stand) {
     const auto [a, b] = std::minmax(i, from);
     const auto [c, d] = std::minmax(i, stand);
-    return !sure(i) && !way.gap(a, b) && way.gap(c, d) && way.between(a, b, from) < options.min_step;
+    return !sure(i) && !way.gap(a, b) && way.gap(c, d) && way.between(a, b) < options.min_step;
   };
   for (std::size_t k = 0; k < falls.size(); ++k) {
     const std::size_t before = k > 0 ? falls[k - 1] : 0;

@@ -106,6 +106,11 @@ std::size_t bridge(std::vector<Step>& steps, std::span<const double> signal_deg,
 
 }  // namespace
 
+double steps_made(const StepDetection& detection) {
+  if (detection.steps.empty()) return 0;
+  return static_cast<double>(detection.steps.size() - 1) + detection.partial.first + detection.partial.after;
+}
+
 StepDetection detect_steps(std::span<const double> signal_deg, std::span<const double> time_s,
                            const std::vector<bool>& reliable, const StepDetectionOptions& options) {
   check(signal_deg, time_s, reliable, options);

@@ -24,12 +24,12 @@ std::optional<double> cadence_hz(std::span<const Step> steps, std::size_t i, dou
 
 }  // namespace
 
-double calibrated_step_length_m(double distance_m, std::size_t steps) {
-  if (!(distance_m > 0) || steps == 0) {
+double calibrated_step_length_m(double distance_m, double steps) {
+  if (!(distance_m > 0 && steps > 0)) {
     throw std::invalid_argument(
         fmt::format("calibrated_step_length_m: {} m in {} steps; both above 0 expected", distance_m, steps));
   }
-  return distance_m / static_cast<double>(steps);
+  return distance_m / steps;
 }
 
 std::vector<double> step_lengths_m(std::span<const Step> steps, const StepLengthOptions& options) {

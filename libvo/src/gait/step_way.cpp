@@ -11,28 +11,65 @@
 namespace vo {
 namespace {
 
-/// The median of one field of those nearest to a place in a list, so many to either side.
-template <typename Item, typename Field>
-double nearest_median(const std::vector<Item>& items, std::ptrdiff_t at, Field field) {
-  constexpr std::ptrdiff_t kNearest = 3;
-  const auto size = static_cast<std::ptrdiff_t>(items.size());
-  std::vector<double> values;
-  for (auto i = std::max<std::ptrdiff_t>(0, at - kNearest); i < std::min(size, at + kNearest); ++i)
-    values.push_back(items[static_cast<std::size_t>(i)].*field);
-  return median(std::move(values));
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Steps between two frames, neither of which counts: as many, a `parts`th of the time apart.
-std::vector<Step> evenly(std::size_t from, std::size_t to, double count, double parts,
-                         std::span<const double> signal, std::span<const double> time_s) {
-  std::vector<Step> steps;
-  for (double k = 1; k <= count; ++k) {
-    const auto frame = static_cast<std::size_t>(
-        std::lround(std::lerp(static_cast<double>(from), static_cast<double>(to), k / parts)));
-    if (frame > (steps.empty() ? from : steps.back().frame) && frame < time_s.size())
-      steps.push_back({frame, time_s[frame], Leg::kLeft, signal[frame], true});
+/// From one step to the next.
+struct Interval {
+  double middle_s = 0;
+  double seconds = 0;
+  double growth = 0;  ///< mean of its frames
+};
+
+/// The usual step about a time: medians of those nearest to it. For times that increase from call to call.
+class UsualStep {
+ public:
+  explicit UsualStep(const std::vector<Interval>& all) : all_(all) {}
+
+  Interval at(double time_s) {
+    constexpr std::size_t kNearest = 6;
+    while (begin_ + kNearest < all_.size() &&
+           all_[begin_ + kNearest].middle_s - time_s < time_s - all_[begin_].middle_s)
+      ++begin_;
+    const auto usual = [&](double Interval::*field) {
+      std::vector<double> values;
+      for (std::size_t i = begin_; i < std::min(all_.size(), begin_ + kNearest); ++i)
+        values.push_back(all_[i].*field);
+      return median(std::move(values));
+    };
+    return {time_s, usual(&Interval::seconds), usual(&Interval::growth)};
   }
-  return steps;
+
+ private:
+  const std::vector<Interval>& all_;
+  std::size_t begin_ = 0;
+};
+
+/// The intervals in which no step was lost.
+std::vector<Interval> whole_steps(std::span<const double> growth, std::span<const double> time_s,
+                                  std::span<const std::size_t> step_frames, double missed_ratio) {
+  std::vector<Interval> all, whole;
+  for (std::size_t i = 1; i < step_frames.size(); ++i) {
+    const std::size_t from = step_frames[i - 1], to = step_frames[i];
+    all.push_back({.middle_s = (time_s[from] + time_s[to]) / 2,
+                   .seconds = time_s[to] - time_s[from],
+                   .growth = mean(growth.subspan(from + 1, to - from))});
+  }
+  // Who slows down takes longer than before, but not than after.
+  constexpr std::ptrdiff_t kBeside = 3;
+  const auto median_s = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::vector<double> seconds;
+    for (auto i = std::max<std::ptrdiff_t>(0, begin); i < std::min(std::ssize(all), end); ++i)
+      seconds.push_back(all[static_cast<std::size_t>(i)].seconds);
+    return seconds.empty() ? 0 : median(std::move(seconds));
+  };
+  for (std::ptrdiff_t i = 0; i < std::ssize(all); ++i) {
+    const Interval& step = all[static_cast<std::size_t>(i)];
+    const double usual_s = std::max(median_s(i - kBeside, i + 1), median_s(i, i + kBeside + 1));
+    if (step.seconds < missed_ratio * usual_s) whole.push_back(step);
+  }
+  return whole;
 }
 
 /// Bridged steps with the other leg than the step beside them.
@@ -48,89 +85,93 @@ void alternate_bridged(std::vector<Step>& steps) {
 
 StepWay::StepWay(std::span<const double> growth, std::span<const double> time_s,
                  std::span<const std::size_t> step_frames, const StepWayOptions& options)
-    : growth_(growth), time_s_(time_s), options_(options) {
-  std::vector<Interval> all;
-  for (std::size_t i = 1; i < step_frames.size(); ++i) {
-    const std::size_t from = step_frames[i - 1], to = step_frames[i];
-    const auto part = growth.subspan(from + 1, to - from);
-    all.push_back(
-        {.end = to,
-         .seconds = time_s[to] - time_s[from],
-         .growth = std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(to - from)});
+    : time_s_(time_s), options_(options) {
+  const std::vector<Interval> steps = whole_steps(growth, time_s, step_frames, options.missed_ratio);
+  if (steps.empty()) return;
+  std::vector<double> speed, over_step;  // shares of the usual: growth of the frame, and about it
+  UsualStep about(steps);
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const Interval usual = about.at(time_s[i]);
+    step_s_.push_back(usual.seconds);
+    const auto share = [&](double grows) { return usual.growth > 0 ? std::abs(grows) / usual.growth : 1; };
+    const auto [begin, end] = within(i, usual.seconds / 2);
+    over_step.push_back(share(mean(growth.subspan(begin, end - begin))));
+    speed.push_back(over_step[i] < options.min_growth ? 0 : std::min(1.0, share(growth[i])));
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double usual_s = nearest_median(all, static_cast<std::ptrdiff_t>(i), &Interval::seconds);
-    if (all[i].seconds < options.missed_ratio * usual_s) steps_.push_back(all[i]);
+  walk_on(over_step, speed);
+  way_.push_back(0);
+  for (std::size_t i = 1; i < time_s.size(); ++i)
+    way_.push_back(way_.back() + std::sqrt(speed[i]) * (time_s[i] - time_s[i - 1]) / step_s_[i]);
+}
+
+void StepWay::walk_on(std::span<const double> over_step, std::vector<double>& speed) const {
+  const auto slow = [&](double share) { return share < options_.slow_growth; };
+  for (auto begin = over_step.begin(); begin != over_step.end();) {
+    begin = std::find_if(begin, over_step.end(), slow);
+    const auto end = std::find_if_not(begin, over_step.end(), slow);
+    if (begin != over_step.begin() && end != over_step.end()) {
+      const auto from = static_cast<std::size_t>(begin - over_step.begin());
+      const auto to = static_cast<std::size_t>(end - over_step.begin());
+      if (time_s_[to] - time_s_[from] < options_.min_stand * step_s_[from])
+        std::fill(speed.begin() + (begin - over_step.begin()), speed.begin() + (end - over_step.begin()),
+                  1.0);
+    }
+    begin = end;
   }
 }
 
-StepWay::Interval StepWay::usual(std::size_t frame) const {
-  const auto at = std::ranges::lower_bound(steps_, frame, {}, &Interval::end) - steps_.begin();
-  return {.end = frame,
-          .seconds = nearest_median(steps_, at, &Interval::seconds),
-          .growth = nearest_median(steps_, at, &Interval::growth)};
+std::pair<std::size_t, std::size_t> StepWay::within(std::size_t frame, double seconds) const {
+  std::size_t begin = frame, end = frame + 1;
+  while (begin > 0 && time_s_[frame] - time_s_[begin - 1] <= seconds) --begin;
+  while (end < time_s_.size() && time_s_[end] - time_s_[frame] <= seconds) ++end;
+  return {begin, end};
 }
 
 bool StepWay::walking(std::size_t frame) const {
-  const double half_s = step_s(frame) / 2;
-  std::size_t a = frame, b = frame;
-  while (a > 0 && time_s_[frame] - time_s_[a] < half_s) --a;
-  while (b + 1 < time_s_.size() && time_s_[b] - time_s_[frame] < half_s) ++b;
-  return between(a, b, frame) >= options_.min_way;
+  const auto [begin, end] = within(frame, step_s_[frame] / 2);
+  return between(begin, end - 1) >= options_.min_way;
 }
 
 bool StepWay::gap(std::size_t a, std::size_t b) const {
-  return time_s_[b] - time_s_[a] > options_.missed_ratio * step_s(b);
+  return time_s_[b] - time_s_[a] > options_.missed_ratio * step_s_[b];
 }
 
-double StepWay::between(std::size_t a, std::size_t b, std::size_t measure) const {
-  const Interval step = usual(measure);
-  if (!(step.growth > 0)) return (time_s_[b] - time_s_[a]) / step.seconds;
-  double steps = 0;
-  for (std::size_t i = a + 1; i <= b; ++i) {
-    const double share = growth_[i] / step.growth;
-    if (share >= options_.min_growth)
-      steps += std::sqrt(std::min(share, 1.0)) * (time_s_[i] - time_s_[i - 1]) / step.seconds;
-  }
-  return steps;
+std::size_t StepWay::after(std::size_t frame, double steps) const {
+  const auto reached = std::ranges::lower_bound(way_, way_[frame] + steps - 1e-9);  // of rounding
+  return std::min(static_cast<std::size_t>(reached - way_.begin()), way_.size() - 1);
 }
 
 StepDetection complete_steps(StepDetection detection, const StepWay& way, std::span<const double> signal,
                              std::span<const double> time_s) {
   if (!way.known() || detection.steps.empty()) return detection;
   std::vector<Step> steps;
-  const auto add = [&](const std::vector<Step>& more) {
-    steps.insert(steps.end(), more.begin(), more.end());
+  const auto add_lost = [&](std::size_t frame) {
+    steps.push_back({frame, time_s[frame], Leg::kLeft, signal[frame], true});
   };
-  for (const Step& step : detection.steps) {
-    if (steps.empty() || !way.gap(steps.back().frame, step.frame)) {
-      steps.push_back(step);
-      continue;
-    }
+  // Up to a step lies between an end of the recording and the footfall next to it; the way is known no better
+  // than to a quarter.
+  const auto lost = [](double steps_of_way) { return std::max(0.0, std::floor(steps_of_way - 0.25)); };
+
+  const double before = way.between(0, detection.steps.front().frame);
+  for (double k = lost(before); k >= 1; --k) add_lost(way.after(0, before - k));
+  steps.push_back(detection.steps.front());
+  for (const Step& step : std::span(detection.steps).subspan(1)) {
     const std::size_t from = steps.back().frame;
-    double count = std::round(way.between(from, step.frame, step.frame));
-    constexpr double kStand = 3;  // steps: to stop and start again takes no less time
-    if (time_s[step.frame] - time_s[from] < kStand * way.step_s(step.frame)) count = std::max(count, 1.0);
+    const double length = way.between(from, step.frame);
+    const double count = way.gap(from, step.frame) ? std::round(length) : 1;
     if (count >= 1) {
-      add(evenly(from, step.frame, count - 1, count, signal, time_s));
+      for (double k = 1; k < count; ++k) add_lost(way.after(from, length * k / count));
       steps.push_back(step);
     } else if (std::abs(step.value_deg) > std::abs(steps.back().value_deg)) {
       steps.back() = step;
     }
   }
+  const std::size_t last = steps.back().frame;
+  const double after = way.between(last, time_s.size() - 1);
+  for (double k = 1; k <= lost(after); ++k) add_lost(way.after(last, k));
 
-  const std::size_t first = steps.front().frame, last = steps.back().frame, end = time_s.size() - 1;
-  const double before = way.between(0, first, first), after = way.between(last, end, last);
-  constexpr double kDone = 0.9;  // of a step: the way is known no better than to a tenth
-  const double more = std::floor(before + after + 1 - kDone) - 1;  // the first one seen is one of them
-  if (more < 0) {
-    steps.erase(before < after ? steps.begin() : steps.end() - 1);
-  } else {
-    const double at_start = std::clamp(std::ceil(before - 1 + kDone) - 1, 0.0, more);
-    const std::vector<Step> lost = evenly(0, first, at_start, at_start + 1, signal, time_s);
-    add(evenly(last, end, more - at_start, std::max(after, more - at_start), signal, time_s));
-    steps.insert(steps.begin(), lost.begin(), lost.end());
-  }
+  detection.partial = {.first = std::min(1.0, way.between(0, steps.front().frame)),
+                       .after = std::min(1.0, way.between(steps.back().frame, time_s.size() - 1))};
   alternate_bridged(steps);
   detection.bridged = static_cast<std::size_t>(std::ranges::count(steps, true, &Step::bridged));
   detection.steps = std::move(steps);

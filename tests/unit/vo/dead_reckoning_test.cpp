@@ -61,6 +61,17 @@ TEST(StepDisplacement, OfALoneStepTakesHalfASecond) {
               ElementsAre(0, 0.5, 0.5, 0));
 }
 
+TEST(StepDisplacement, CountsTheSharesOfStepsAtTheEnds) {
+  // Steps take 4 frames: half of the first is made in frames 3 and 4, three quarters of one more after
+  // frame 12.
+  EXPECT_THAT(vo::step_displacement_m(steps_at({4, 8, 12}), std::vector<double>{1, 1, 2}, times(17),
+                                      {.first = 0.5, .after = 0.75}),
+              ElementsAre(0, 0, 0, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0));
+  EXPECT_THAT(vo::step_displacement_m({}, {}, times(3), {.first = 0.5, .after = 0.5}), Each(0));
+  EXPECT_THROW(vo::step_displacement_m({}, {}, times(3), {.first = 1.1, .after = 0}), std::invalid_argument);
+  EXPECT_THROW(vo::step_displacement_m({}, {}, times(3), {.first = 1, .after = -0.1}), std::invalid_argument);
+}
+
 TEST(StepDisplacement, IsEvenWhereTheExtremaLimp) {
   // Left steps are seen 2 frames early of the 8 between steps: intervals of 6 and 10 frames by turns.
   std::vector<vo::Step> steps = steps_at({10, 16, 26, 32, 42, 48, 58});
@@ -100,7 +111,7 @@ TEST(DeadReckon, FollowsThePaperByHand) {
   heading[8] = kPi / 2;
   heading[12] = -3 * kPi / 4;
   const auto walk = vo::dead_reckon(steps_at({4, 8, 12}), std::vector<double>{1, 2, std::sqrt(2.0)}, heading,
-                                    times(13), kPaper);
+                                    times(13), {}, kPaper);
   ASSERT_EQ(walk.at_step.size(), 3U);
   const std::vector<std::pair<double, double>> expected{{0, 1}, {2, 1}, {1, 0}};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -117,7 +128,7 @@ TEST(DeadReckon, StraightAheadBothWaysAreOne) {
   const auto steps = steps_at({5, 9, 14, 33, 38});
   const std::vector<double> lengths{0.7, 0.8, 0.7, 0.6, 0.7};
   const auto ours = vo::dead_reckon(steps, lengths, heading, times(40));
-  const auto paper = vo::dead_reckon(steps, lengths, heading, times(40), kPaper);
+  const auto paper = vo::dead_reckon(steps, lengths, heading, times(40), {}, kPaper);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     EXPECT_NEAR(ours.at_step[i].x_m, paper.at_step[i].x_m, 1e-12);  // rounding
     EXPECT_NEAR(ours.at_step[i].y_m, paper.at_step[i].y_m, 1e-12);
@@ -130,8 +141,7 @@ TEST(DeadReckon, GoesWhereTheWalkerLooksWhileStepping) {
   // the way as the crow flies shorter by sin(x) / x of half the turn.
   std::vector<double> heading(9, 0.0);
   for (std::size_t i = 1; i < 9; ++i) heading[i] = kPi / 2 * (static_cast<double>(i) - 0.5) / 8;
-  const auto walk = vo::dead_reckon(steps_at({8}), std::vector<double>{1}, heading, times(9),
-                                    {.heading_over_step = true, .pause_s = 1.5});
+  const auto walk = vo::dead_reckon(steps_at({8}), std::vector<double>{1}, heading, times(9));
   EXPECT_EQ(walk.at_frame[4].pose.y_m, 0);  // a lone step takes the last half second
   const auto& step = walk.at_step[0];
   EXPECT_NEAR(step.heading_rad, 3 * kPi / 8, 1e-12);  // frames 5 to 8: the second half of the turn
@@ -147,7 +157,7 @@ TEST(DeadReckon, FramesAndStepsMeet) {
   for (std::size_t frame = 3; frame < 280; frame += 3 + rng.index(12)) frames.push_back(frame);
   const auto steps = steps_at(frames);
   for (const bool over_step : {false, true}) {
-    const auto walk = vo::dead_reckon(steps, std::vector<double>(steps.size(), 0.7), heading, times(300),
+    const auto walk = vo::dead_reckon(steps, std::vector<double>(steps.size(), 0.7), heading, times(300), {},
                                       {.heading_over_step = over_step, .pause_s = 1.5});
     ASSERT_EQ(walk.at_frame.size(), 300U);
     for (std::size_t i = 0; i < steps.size(); ++i) {

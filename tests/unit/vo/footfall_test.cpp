@@ -1,6 +1,7 @@
 #include "support/bouncing_walk.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -34,26 +35,62 @@ TEST(DetectFootfalls, FindsEachStepAtItsEnd) {
   }
 }
 
-TEST(DetectFootfalls, CountsWholeStepsWhereverAWalkIsCut) {
-  // The same 20 steps and a half, begun anywhere within a step: 20 were completed.
-  for (const double begin : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+TEST(DetectFootfalls, CountsThoseInTheRecordingWhereverItIsCut) {
+  for (const double begin : {0.1, 0.3, 0.7, 0.8}) {
     const BouncingWalk whole = BouncingWalk().walk(begin, 2).walk(20.5, 2);
     const auto cut = static_cast<std::ptrdiff_t>(std::lround(begin / 2 * BouncingWalk::kRate_hz));
     const auto rest = [cut](const auto& values) { return std::vector(values.begin() + cut, values.end()); };
     const auto found = vo::detect_footfalls(rest(whole.bounce_px()), rest(whole.growth()),
                                             rest(whole.time_s()), rest(whole.reliable()), {});
-    EXPECT_THAT(found.steps, SizeIs(20)) << begin;
+    EXPECT_THAT(found.steps, SizeIs(whole.steps())) << begin;  // one each time its phase is whole
   }
 }
 
 TEST(DetectFootfalls, HalfAStepBeforeAStandAndHalfAfterItAreOne) {
-  const BouncingWalk walk = BouncingWalk().stand(4).walk(20.5, 2).stand(4, 0.6).walk(20.2, 2).stand(4, 0.6);
+  // One stands with the feet together, half a step from either footfall.
+  const BouncingWalk walk = BouncingWalk(0.5).stand(4).walk(20, 2).stand(4, 0.6).walk(20.2, 2).stand(4, 0.6);
   const auto found = detect(walk);
   EXPECT_THAT(found.steps, SizeIs(40));
   for (const vo::Step& step : found.steps) {
-    const bool walked = (step.time_s > 4 && step.time_s < 14.6) || (step.time_s > 18.2 && step.time_s < 28.7);
+    const bool walked = (step.time_s > 4 && step.time_s < 14.1) || (step.time_s > 18 && step.time_s < 28.2);
     EXPECT_TRUE(walked) << step.time_s;
   }
+}
+
+TEST(DetectFootfalls, DoesNotCountTheSwingOutAfterTheLast) {
+  // The feet come together at half a step; the trunk goes on to less than half the depth of a footfall while
+  // the picture still grows a little.
+  const BouncingWalk walk = BouncingWalk().walk(20.4, 2).walk(0.9, 2, 0.8, 0.003).stand(4);
+  EXPECT_THAT(detect(walk).steps, SizeIs(20));
+}
+
+TEST(DetectFootfalls, LosesAndAddsNoneWhenTheWalkerSlowsDown) {
+  const BouncingWalk walk = BouncingWalk().walk(20, 2.9).walk(20.3, 1.5);
+  EXPECT_THAT(detect(walk).steps, SizeIs(walk.steps()));
+}
+
+TEST(DetectFootfalls, SeesNoneAtFramesThatAreNotReliable) {
+  const BouncingWalk walk = BouncingWalk().walk(20.5, 2);
+  std::vector<bool> reliable = walk.reliable();
+  std::fill(reliable.begin() + 120, reliable.begin() + 131, false);  // the tenth falls at frame 125
+  const auto found = vo::detect_footfalls(walk.bounce_px(), walk.growth(), walk.time_s(), reliable, {});
+  ASSERT_THAT(found.steps, SizeIs(20));
+  EXPECT_EQ(found.bridged, 1U);
+  EXPECT_TRUE(found.steps[9].bridged);
+}
+
+TEST(DetectFootfalls, OfTwoValleysInHalfAStepCountsTheDeeper) {
+  const BouncingWalk walk = BouncingWalk().walk(20.5, BouncingWalk::kRate_hz / 12);
+  std::vector<double> bounce_px = walk.bounce_px();
+  std::vector<std::size_t> deepest;
+  for (std::size_t bottom = 11; bottom < 240; bottom += 12) {
+    bounce_px[bottom] += 0.8;
+    bounce_px[bottom - 1] += 0.4;
+    deepest.push_back(bottom + 1);
+  }
+  const auto found = vo::detect_footfalls(bounce_px, walk.growth(), walk.time_s(), walk.reliable(), {});
+  ASSERT_THAT(found.steps, SizeIs(20));
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(found.steps[i].frame, deepest[i]) << i;
 }
 
 TEST(DetectFootfalls, FindsNoneInAStand) {

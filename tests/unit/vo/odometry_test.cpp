@@ -230,7 +230,7 @@ TEST(PedestrianMotion, CountsStepsAndWalksThem) {
 TEST(PedestrianMotion, ReadsStepsFromTheShiftWhereTheHorizonIsSteady) {
   const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0, 3));
   EXPECT_EQ(motion.step_signal, vo::StepSignal::kShift);
-  EXPECT_EQ(vo::step_signal(motion), motion.signal.filtered_shift_px);
+  EXPECT_EQ(vo::values_of(motion.step_signal, motion.signal), motion.signal.filtered_shift_px);
   EXPECT_NEAR(static_cast<double>(motion.detection.steps.size()), 20, 1);  // taking drift out bends the ends
 }
 
@@ -244,20 +244,20 @@ TEST(PedestrianMotion, ReadsStepsFromTheBounceWhereThereIsOne) {
   }
   const vo::PedestrianMotion motion = vo::pedestrian_motion(walk);
   EXPECT_EQ(motion.step_signal, vo::StepSignal::kBounce);
-  EXPECT_EQ(vo::step_signal(motion), motion.signal.bounce_px);
-  ASSERT_EQ(motion.detection.steps.size(), 20U);  // the last ends a frame after the recording does
+  EXPECT_EQ(vo::values_of(motion.step_signal, motion.signal), motion.signal.bounce_px);
+  ASSERT_EQ(motion.detection.steps.size(), 19U);  // the recording ends a frame before another
   EXPECT_EQ(motion.detection.steps[0].leg, vo::Leg::kLeft);
   EXPECT_NEAR(motion.detection.steps[0].time_s, 0.5, 0.05);
   EXPECT_EQ(motion.activity[5].activity, vo::Activity::kWalking);
 
   vo::PedestrianMotionOptions options;
-  options.step_signal = vo::StepSignal::kOrientation;
+  options.steps.signal = vo::StepSignal::kOrientation;
   EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kOrientation);
-  options.step_signal = vo::StepSignal::kShift;
+  options.steps.signal = vo::StepSignal::kShift;
   EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kShift);
   // A threshold in degrees is one of the orientation.
   options = {};
-  options.steps.delta_min_deg = 0.1;
+  options.steps.detection.delta_min_deg = 0.1;
   EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kOrientation);
 }
 

@@ -23,6 +23,7 @@ std::vector<vo::Step> steps_at(const std::vector<double>& time_s) {
 
 TEST(CalibratedStepLength, IsDistanceOverSteps) {
   EXPECT_DOUBLE_EQ(vo::calibrated_step_length_m(7.2, 10), 0.72);
+  EXPECT_DOUBLE_EQ(vo::calibrated_step_length_m(7.35, 10.5), 0.7);
   EXPECT_THROW(vo::calibrated_step_length_m(0, 10), std::invalid_argument);
   EXPECT_THROW(vo::calibrated_step_length_m(7.2, 0), std::invalid_argument);
 }

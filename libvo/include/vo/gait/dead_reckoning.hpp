@@ -29,12 +29,14 @@ struct DeadReckoning {
 ///
 /// A step after a gap longer than `pause_s`, like the first, takes only its usual time before it is done: as
 /// long as the step that follows, or the median of all, or half a second if there is no other. The walker
-/// stands still before that. The sum is that of the lengths.
+/// stands still before that. Of the first step, and of one more of the length of the last, the `partial`
+/// shares count. The sum is that of the lengths, but for these.
 ///
 /// `lengths_m`: one per step; `time_s`: one per frame, increasing. Throws `std::invalid_argument` for another
-/// number of lengths, or steps whose frames do not increase from 1 on or are not among the frames. O(n).
+/// number of lengths, shares outside 0 to 1, or steps whose frames do not increase from 1 on or are not among
+/// the frames. O(n).
 std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<const double> lengths_m,
-                                        std::span<const double> time_s,
+                                        std::span<const double> time_s, const PartialSteps& partial = {},
                                         const DeadReckoningOptions& options = {});
 
 /// Joins steps and headings to a trajectory from (0, 0) (PVO 4.6):
@@ -49,7 +51,7 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
 /// `heading_rad`: one per frame, clockwise from +y; the rest as `step_displacement_m`. O(n).
 DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> lengths_m,
                           std::span<const double> heading_rad, std::span<const double> time_s,
-                          const DeadReckoningOptions& options = {});
+                          const PartialSteps& partial = {}, const DeadReckoningOptions& options = {});
 
 /// Joins displacements from any source and headings to the pose at each frame, from (0, 0):
 /// x_i = x_(i-1) + displacement_i * sin(heading_i), y with cos. One of each per frame, `heading_rad`

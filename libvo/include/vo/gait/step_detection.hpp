@@ -32,14 +32,25 @@ struct StepDetectionOptions {
   PeriodicityOptions periodicity;  ///< what is gait; min_strength = -1 lets everything pass
 };
 
+/// What a recording has of the steps that it begins and ends within.
+struct PartialSteps {
+  double first = 1;  ///< share of the first step that was made in it
+  double after = 0;  ///< share made of one more, after the last
+};
+
 /// The steps of a walk and what they were found by.
 struct StepDetection {
   std::vector<Step> steps;              ///< in order of time, bridged ones among them
   std::size_t bridged = 0;              ///< how many of them are
+  PartialSteps partial;                 ///< where the way tells it (`complete_steps`)
   std::optional<double> delta_min_deg;  ///< as given or learned; none if nothing in the walk is like gait
   double gait_share = 0;                ///< of the frames, those about which the signal is like gait
   std::vector<double> delta_dyn_deg;    ///< at each frame, degrees; with delta_min what PVO's Fig. 3 shows
 };
+
+/// Steps that the way in the recording amounts to: all of them, of the first and of one after the last the
+/// shares made in it.
+double steps_made(const StepDetection& detection);
 
 /// Finds the steps in the orientation signal (PVO 4.4, Fig. 2).
 ///

@@ -25,9 +25,9 @@ struct StepLengthOptions {
   double pause_s = 1.5;                ///< a longer gap between two steps says nothing of cadence
 };
 
-/// The step length of a walk of known distance with so many steps. Throws `std::invalid_argument` unless both
-/// are above 0.
-double calibrated_step_length_m(double distance_m, std::size_t steps);
+/// The step length of a walk of known distance with so many steps, which need not be whole (`steps_made`).
+/// Throws `std::invalid_argument` unless both are above 0.
+double calibrated_step_length_m(double distance_m, double steps);
 
 /// The length of each step, metres.
 ///
