@@ -10,14 +10,17 @@ namespace {
 
 using Displacements = std::vector<std::optional<double>>;
 
-/// Ranges of frames of one segment, from the first with a displacement to the last: one unit. `whole`: only
-/// of such frames.
-std::vector<FrameRange> runs_of(const DisplacementTrack& track, bool whole) {
+/// Ranges of frames of one segment with a displacement. `over_losses`: a segment goes on, in its unit, after
+/// frames that were lost; not with frames that have no pose in it, of a camera that stood or turned in
+/// between.
+std::vector<FrameRange> runs_of(const DisplacementTrack& track, bool over_losses) {
+  const auto posed = [&](std::size_t i) { return track.poses.size() != track.size() || track.poses[i]; };
   std::vector<FrameRange> runs;
   for (std::size_t i = 0; i < track.size(); ++i) {
     if (!track.frames[i].valid) continue;
-    const bool goes_on = !runs.empty() && (!whole || runs.back().end == i) &&
-                         track.frames[runs.back().end - 1].segment == track.frames[i].segment;
+    const std::size_t end = runs.empty() ? 0 : runs.back().end;
+    const bool goes_on = !runs.empty() && track.frames[end - 1].segment == track.frames[i].segment &&
+                         (end == i || (over_losses && posed(end - 1) && posed(i)));
     if (!goes_on) runs.push_back({i, i});
     runs.back().end = i + 1;
   }
@@ -144,7 +147,7 @@ std::vector<std::optional<double>> smoothed_displacement(const DisplacementTrack
   if (time_s.size() != track.size())
     throw std::invalid_argument("smoothed_displacement: one time per frame expected");
   Displacements displacement(track.size());
-  for (const FrameRange& run : runs_of(track, true)) {
+  for (const FrameRange& run : runs_of(track, false)) {
     // The frame before the first has a pose too, unless the walk or the segment begins here.
     const bool posed_before = run.begin > 0 && track.poses.size() == track.size() &&
                               track.poses[run.begin - 1] &&
@@ -183,7 +186,7 @@ ScaledTrack tie_track_scale(const MotionEvidence& evidence, const TrackScaleOpti
   if (track.scale == TrackScale::kCommon) {
     runs = {{0, track.size()}};
   } else {
-    for (const FrameRange& run : runs_of(track, false)) {
+    for (const FrameRange& run : runs_of(track, true)) {
       if (evidence.time_s[run.end - 1] - evidence.time_s[run.begin] >= options.min_segment_s)
         runs.push_back(run);
     }
