@@ -176,7 +176,7 @@ void add_search_options(CLI::App& app, Settings& s) {
              {{"auto", place::CandidateUse::kAuto},
               {"never", place::CandidateUse::kNever},
               {"always", place::CandidateUse::kAlways}},
-             "compare with a shortlist of the reference only; auto does so from 1000 on 100000 keyframes up");
+             "compare with a shortlist of the reference only; auto does so from 400 on 100000 keyframes up");
   add(app, kSearch, "--max-shift-px", s.localiser.cost.max_shift_px,
       "pixels of the thumbnail, sideways, within which the query is moved to fit best")
       ->check(CLI::Range(0, 100));

@@ -15,12 +15,27 @@ namespace {
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Rows as_floats(const vo::ImageStack& images, std::size_t first, std::size_t count) {
-  using Bytes = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto size = static_cast<Eigen::Index>(images.image_size());
-  return Eigen::Map<const Bytes>(images.pixels.data() + first * images.image_size(),
-                                 static_cast<Eigen::Index>(count), size)
-      .cast<float>();
+/// Sums over blocks of `pool` x `pool` pixels, smaller at the right and lower border; a row for each image.
+Rows pooled(const vo::ImageStack& images, std::size_t first, std::size_t count, std::size_t pool) {
+  const auto width = static_cast<std::size_t>(images.width), height = static_cast<std::size_t>(images.height);
+  const std::size_t across = (width + pool - 1) / pool, down = (height + pool - 1) / pool;
+  Rows rows(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(across * down));
+  std::vector<std::uint32_t> column_sums(width);
+  for (std::size_t i = 0; i < count; ++i) {
+    float* block = rows.row(static_cast<Eigen::Index>(i)).data();
+    const std::uint8_t* pixels = images[first + i].data();
+    for (std::size_t top = 0; top < height; top += pool) {
+      std::ranges::fill(column_sums, 0);
+      for (std::size_t y = top; y < std::min(height, top + pool); ++y)
+        for (std::size_t x = 0; x < width; ++x) column_sums[x] += pixels[y * width + x];
+      for (std::size_t left = 0; left < width; left += pool) {
+        std::uint32_t sum = 0;
+        for (std::size_t x = left; x < std::min(width, left + pool); ++x) sum += column_sums[x];
+        *block++ = static_cast<float>(sum);
+      }
+    }
+  }
+  return rows;
 }
 
 std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t of) {
@@ -29,25 +44,22 @@ std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t of) {
   return indices;
 }
 
-/// The first principal components of images: a projection from pixels.
+/// The first principal components of images: a projection from pooled pixels.
 struct Components {
+  std::size_t pool = 1;
   Eigen::RowVectorXf mean;
   Eigen::MatrixXf axes;  ///< a column for each
 };
 
-/// Of fewer images than pixels, by way of the small matrix of their products.
-Components principal_components(const vo::ImageStack& images, int dimensions) {
-  Rows rows = as_floats(images, 0, images.size());
-  Components components{.mean = rows.colwise().mean(), .axes = {}};
+Components principal_components(const vo::ImageStack& images, const CandidateOptions& options) {
+  const auto pool = static_cast<std::size_t>(options.pool_px);
+  Rows rows = pooled(images, 0, images.size(), pool);
+  Components components{.pool = pool, .mean = rows.colwise().mean(), .axes = {}};
   rows.rowwise() -= components.mean;
-  const Eigen::MatrixXf products = rows * rows.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(products);
-  const auto count = std::min<Eigen::Index>(dimensions, rows.rows());
-  components.axes = rows.transpose() * solver.eigenvectors().rightCols(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const float length = components.axes.col(i).norm();
-    if (length > 0) components.axes.col(i) /= length;
-  }
+  const Eigen::MatrixXf covariance = rows.transpose() * rows;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(covariance);
+  components.axes =
+      solver.eigenvectors().rightCols(std::min<Eigen::Index>(options.dimensions, covariance.cols()));
   return components;
 }
 
@@ -56,7 +68,7 @@ Rows project(const vo::ImageStack& images, const Components& components) {
   Rows projected(static_cast<Eigen::Index>(images.size()), components.axes.cols());
   vo::parallel_for((images.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
     const std::size_t first = block * kBlock, count = std::min(kBlock, images.size() - first);
-    Rows rows = as_floats(images, first, count);
+    Rows rows = pooled(images, first, count, components.pool);
     rows.rowwise() -= components.mean;
     projected.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).noalias() =
         rows * components.axes;
@@ -97,8 +109,8 @@ std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::Ima
   if (queries.width != references.width || queries.height != references.height) {
     throw std::invalid_argument("candidates: query and reference descriptors differ in size");
   }
-  if (options.dimensions < 1 || options.sample < 1 || !(options.slack >= 0) || options.shortlist < 1 ||
-      options.run < 1 || options.stretches < 1 || options.margin < 0) {
+  if (options.pool_px < 1 || options.dimensions < 1 || options.sample < 1 || !(options.slack >= 0) ||
+      options.shortlist < 1 || options.run < 1 || options.stretches < 1 || options.margin < 0) {
     throw std::invalid_argument("candidates: counts of at least 1, slack and margin of at least 0 expected");
   }
   const std::size_t total = references.size();
@@ -106,7 +118,7 @@ std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::Ima
   const std::vector<std::size_t> sample = evenly_spaced(std::min(sampled, total), total);
   if (total <= sampled || queries.empty()) return sample;
 
-  const Components components = principal_components(vo::select(references, sample), options.dimensions);
+  const Components components = principal_components(vo::select(references, sample), options);
   Rows query_rows = project(queries, components), reference_rows = project(references, components);
   const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(options.shortlist), total);
   const std::vector<std::size_t> shortlists = nearest(query_rows, reference_rows, count, options);

@@ -71,8 +71,9 @@ void shrink_rows(std::size_t first, std::span<const float> rows, const std::vect
 /// The references that are compared with: all, or of very many a shortlist.
 std::vector<std::size_t> references_to_compare(const vo::ImageStack& query, const vo::ImageStack& reference,
                                                const LocaliserOptions& options, int length) {
-  // A shortlist takes about as long as comparing all references with 400 queries (tests/bench/README.md).
-  constexpr std::size_t kManyQueries = 1000, kManyReferences = 100'000;
+  // A shortlist takes less than half as long as comparing all references with 400 queries
+  // (tests/bench/README.md).
+  constexpr std::size_t kManyQueries = 400, kManyReferences = 100'000;
   const bool many = query.size() >= kManyQueries && reference.size() >= kManyReferences;
   if (options.candidate_use == CandidateUse::kAlways ||
       (options.candidate_use == CandidateUse::kAuto && many)) {

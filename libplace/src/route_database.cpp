@@ -182,6 +182,7 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
       "? "
       "ORDER BY position");
   keyframe.bind(id);
+  traverse.keyframes.reserve(static_cast<std::size_t>(std::max<std::int64_t>(0, keyframes)));
   while (keyframe.step()) {
     Keyframe k;
     k.frame = keyframe.integer();
@@ -208,9 +209,9 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     }
   }
 
-  traverse.thumbnails = vo::make_image_stack(route.thumbnail.width, route.thumbnail.height, 0);
-  const std::size_t bytes = traverse.keyframes.size() * traverse.thumbnails.image_size();
-  traverse.thumbnails.pixels.reserve(bytes);
+  traverse.thumbnails =
+      vo::make_image_stack(route.thumbnail.width, route.thumbnail.height, traverse.keyframes.size());
+  std::span<std::uint8_t> missing = traverse.thumbnails.pixels;
   Statement chunk =
       database.prepare("SELECT checksum, pixels FROM thumbnail_chunk WHERE traverse = ? ORDER BY first");
   chunk.bind(id);
@@ -218,9 +219,11 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     const std::int64_t expected = chunk.integer();
     const std::span<const std::uint8_t> part = chunk.blob();
     if (checksum(part) != expected) damaged(path, "a block of thumbnails does not fit its checksum");
-    traverse.thumbnails.pixels.insert(traverse.thumbnails.pixels.end(), part.begin(), part.end());
+    if (part.size() > missing.size()) damaged(path, "there are more thumbnails than keyframes");
+    std::ranges::copy(part, missing.begin());
+    missing = missing.subspan(part.size());
   }
-  if (traverse.thumbnails.pixels.size() != bytes) damaged(path, "thumbnails are missing");
+  if (!missing.empty()) damaged(path, "thumbnails are missing");
   return traverse;
 }
 
@@ -306,7 +309,8 @@ void write_route(const std::filesystem::path& path, const Route& route) {
   {
     const Database database(file.temporary(), Database::Mode::kCreate, path.string());
     // No journal: until the rename nobody looks at this file, and a broken one is thrown away whole.
-    database.run("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;");
+    // Pages of 16 kB: a quarter of the reads that thumbnails take with SQLite's usual 4 kB.
+    database.run("PRAGMA page_size = 16384; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;");
     database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId,
                              kRouteSchemaVersion));
     database.run("BEGIN");

@@ -33,6 +33,7 @@ BENCHMARK(batch)
     ->Arg(5000)
     ->Arg(10000)
     ->Arg(20000)
+    ->Arg(40000)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
 

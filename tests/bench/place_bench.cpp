@@ -52,6 +52,7 @@ struct Walks {
 // ---- The cost matrix, its limit and its peers. One thread unless it says otherwise. ----
 
 BENCHMARK(bench::sad_limit)->Name("sad_limit")->Unit(benchmark::kMillisecond);
+BENCHMARK(bench::sad_limit)->Name("sad_limit")->Threads(2)->Unit(benchmark::kMillisecond);
 
 /// Arguments: queries, references, threads. Into memory that is there, as a search streams.
 void cost_matrix(benchmark::State& state) {

@@ -51,7 +51,7 @@ inline constexpr std::size_t kLimitBytes = 8192;
 
 #endif
 
-/// One thread's rate, by the instructions that the library takes on this processor.
+/// The rate of each thread, by the instructions that the library takes on this processor.
 inline void sad_limit(benchmark::State& state) {
 #if defined(__x86_64__)
   alignas(64) const std::array<std::uint8_t, kLimitBytes> bytes{};

@@ -24,6 +24,14 @@ struct NumberLine {
   std::vector<double> values;
 };
 
+/// The beginning of what a file holds, which may be no text at all.
+std::string printable(std::string_view cell) {
+  constexpr std::size_t kMost = 40;
+  std::string text(cell.substr(0, kMost));
+  for (char& c : text) c = c >= ' ' && c <= '~' ? c : '?';
+  return text + (cell.size() > kMost ? "..." : "");
+}
+
 std::vector<NumberLine> read_lines(const std::filesystem::path& path, std::string_view expected) {
   std::ifstream file(path);
   if (!std::filesystem::is_regular_file(path) || !file)
@@ -39,7 +47,7 @@ std::vector<NumberLine> read_lines(const std::filesystem::path& path, std::strin
       std::istringstream parser(cell);
       double value = 0;
       if (!(parser >> value) || !parser.eof() || !std::isfinite(value))
-        throw Error(line.where, fmt::format("'{}' is no number", cell), expected);
+        throw Error(line.where, fmt::format("'{}' is no number", printable(cell)), expected);
       line.values.push_back(value);
     }
     lines.push_back(std::move(line));

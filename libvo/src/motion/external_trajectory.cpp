@@ -77,12 +77,19 @@ DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const 
     track.poses.push_back(pose);
   }
   if (!any && !time_s.empty()) {
-    throw Error(series.source,
-                fmt::format("has poses from {} to {} s, none at a frame of the walk ({} to {} s)",
-                            series.time_s.empty() ? 0 : series.time_s.front(),
-                            series.time_s.empty() ? 0 : series.time_s.back(),
-                            options.start_s + time_s.front(), options.start_s + time_s.back()),
-                "the walk's clock, or the file's time at its first frame");
+    throw Error(
+        series.source,
+        fmt::format("has poses from {:.10g} to {:.10g} s, none at a frame of the walk ({:.10g} to {:.10g} s)",
+                    series.time_s.empty() ? 0 : series.time_s.front(),
+                    series.time_s.empty() ? 0 : series.time_s.back(), options.start_s + time_s.front(),
+                    options.start_s + time_s.back()),
+        "the walk's clock, or the file's time at its first frame");
+  }
+  const auto valid = std::ranges::count(track.frames, true, &TrackedDisplacement::valid);
+  if (time_s.size() > 1 &&
+      valid <= (track.frames[0].valid ? 1 : 0)) {  // the first frame has no way behind it
+    throw Error(series.source, "has no two poses at neighbouring frames of the walk",
+                fmt::format("poses at most {} s apart", options.max_gap_s));
   }
   return track;
 }

@@ -2,13 +2,16 @@
 
 #include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
+#include "vo/image/patch_normalisation.hpp"
 #include "vo/motion/alignment_error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace vo {
 
@@ -36,6 +39,12 @@ std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const d
     return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
   };
   const double limit = options.alike * distant_error;
+  const std::vector<std::uint8_t> blank(normalised.image_size(), kNeutralByte);
+  std::vector<char> shows(normalised.size());  // a picture of nothing is like any other
+  parallel_for(normalised.size(), [&](std::size_t i) {
+    constexpr double kLeast = 0.2;  // deviations: a quarter of what normal pixels differ from their mean
+    shows[i] = alignment_error(normalised[i], blank) >= kLeast;
+  });
   std::vector<std::size_t> last(normalised.size(),
                                 0);  // of the standing span that starts at each frame; 0: none does
   parallel_for(normalised.size(), [&](std::size_t first) {
@@ -43,7 +52,7 @@ std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const d
     const std::size_t end = frame_at(time_s[first] + options.span_s);
     if (end >= normalised.size() || middle == first || end == middle) return;
     const auto alike = [&](std::size_t a, std::size_t b) {
-      return alignment_error(normalised[a], normalised[b]) < limit;
+      return shows[a] && shows[b] && alignment_error(normalised[a], normalised[b]) < limit;
     };
     if (alike(first, middle) && alike(middle, end) && alike(first, end)) last[first] = end;
   });

@@ -10,15 +10,19 @@ namespace {
 
 using Displacements = std::vector<std::optional<double>>;
 
-/// Ranges of frames with a displacement, of one segment each.
-std::vector<FrameRange> runs_of(const DisplacementTrack& track) {
+/// Ranges of frames of one segment with a displacement. `over_losses`: a segment goes on, in its unit, after
+/// frames that were lost; not with frames that have no pose in it, of a camera that stood or turned in
+/// between.
+std::vector<FrameRange> runs_of(const DisplacementTrack& track, bool over_losses) {
+  const auto posed = [&](std::size_t i) { return track.poses.size() != track.size() || track.poses[i]; };
   std::vector<FrameRange> runs;
   for (std::size_t i = 0; i < track.size(); ++i) {
     if (!track.frames[i].valid) continue;
-    const bool goes_on = !runs.empty() && runs.back().end == i && i > 0 &&
-                         track.frames[i - 1].segment == track.frames[i].segment;
+    const std::size_t end = runs.empty() ? 0 : runs.back().end;
+    const bool goes_on = !runs.empty() && track.frames[end - 1].segment == track.frames[i].segment &&
+                         (end == i || (over_losses && posed(end - 1) && posed(i)));
     if (!goes_on) runs.push_back({i, i});
-    ++runs.back().end;
+    runs.back().end = i + 1;
   }
   return runs;
 }
@@ -72,9 +76,11 @@ bool steady_by_ground(const MotionEvidence& evidence, const TrackScaleOptions& o
 /// contradict it.
 bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& options, FrameRange run,
                     double window_s, const Displacements& track, Displacements& scaled) {
-  constexpr double kLeast_m = 1;  // of steps, to tell a scale by
+  constexpr double kLeast_m = 1;                 // of steps, to tell a scale by
+  std::vector<bool> both(evidence.steps_known);  // say something
+  for (std::size_t i = run.begin; i < run.end; ++i) both[i] = both[i] && track[i];
   // A step that was not found, like the first of a walk, has no length to compare.
-  std::vector<bool> stepping(evidence.steps_known);
+  std::vector<bool> stepping(both);
   for (std::size_t i = run.begin; i < run.end; ++i) stepping[i] = stepping[i] && evidence.steps_m[i] > 0;
   const auto ratio = [&](FrameRange range) -> std::optional<double> {
     const double walked_m = sum(evidence.steps_m, range, stepping);
@@ -92,8 +98,8 @@ bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& opt
   }
   for (std::size_t i = run.begin; i < run.end;) {
     const FrameRange second{i, overlap(frames_around(evidence.time_s, {i, i + 1}, 1), run).end};
-    const double by_steps_m = sum(evidence.steps_m, second, evidence.steps_known);
-    difference_m += std::abs(by_steps_m - sum(scaled, second, evidence.steps_known));
+    const double by_steps_m = sum(evidence.steps_m, second, both);
+    difference_m += std::abs(by_steps_m - sum(scaled, second, both));
     walked_m += by_steps_m;
     i = second.end;
   }
@@ -141,7 +147,7 @@ std::vector<std::optional<double>> smoothed_displacement(const DisplacementTrack
   if (time_s.size() != track.size())
     throw std::invalid_argument("smoothed_displacement: one time per frame expected");
   Displacements displacement(track.size());
-  for (const FrameRange& run : runs_of(track)) {
+  for (const FrameRange& run : runs_of(track, false)) {
     // The frame before the first has a pose too, unless the walk or the segment begins here.
     const bool posed_before = run.begin > 0 && track.poses.size() == track.size() &&
                               track.poses[run.begin - 1] &&
@@ -180,7 +186,7 @@ ScaledTrack tie_track_scale(const MotionEvidence& evidence, const TrackScaleOpti
   if (track.scale == TrackScale::kCommon) {
     runs = {{0, track.size()}};
   } else {
-    for (const FrameRange& run : runs_of(track)) {
+    for (const FrameRange& run : runs_of(track, true)) {
       if (evidence.time_s[run.end - 1] - evidence.time_s[run.begin] >= options.min_segment_s)
         runs.push_back(run);
     }

@@ -31,13 +31,14 @@ void write_segment(std::span<const SegmentFrame> frames, const std::vector<Keyfr
     TrackedDisplacement& result = track.frames[frame.frame];
     const bool first = &frame == &frames.front();
     if (!first) {
-      result = {.valid = pose && before, .segment = segment, .loss = TrackLoss::kNone};
+      const TrackLoss loss = result.loss == TrackLoss::kNone ? TrackLoss::kTooFewInliers : result.loss;
+      result = {.valid = pose && before, .segment = segment};
       if (result.valid) {
         result.displacement = cv::norm(pose->position - before->position);
         result.sigma = frame.sigma;
         result.turn_rad = heading_change_rad(before->rotation, pose->rotation);
       } else {
-        result.loss = TrackLoss::kTooFewInliers;
+        result.loss = loss;
       }
     } else if (!result.valid) {
       result.segment = segment;

@@ -81,6 +81,13 @@ TEST(ExternalTrajectory, TurnsAboutTheBodysOwnVertical) {
   EXPECT_FALSE(vo::external_trajectory(poses, time_s, slow).frames[1].turn_rad);
 }
 
+TEST(ExternalTrajectory, RefusesPosesTooFarApartToTellAnyWay) {
+  const std::vector<double> time_s{0, 0.1, 0.2, 1, 2};
+  EXPECT_THROW(vo::external_trajectory(series({0, 1, 2}), time_s), vo::Error);
+  EXPECT_NO_THROW(vo::external_trajectory(series({0, 1, 2}), time_s, {.max_gap_s = 1}));
+  EXPECT_NO_THROW(vo::external_trajectory(series({0}), std::vector{0.0}));  // no way is asked of one frame
+}
+
 TEST(ExternalTrajectory, RefusesAnotherClock) {
   EXPECT_THROW_WITH(vo::external_trajectory(series({1000, 1001}), std::vector{0.0, 1.0}), vo::Error,
                     "walk.tum: has poses from 1000 to 1001 s, none at a frame of the walk (0 to 1 s)");

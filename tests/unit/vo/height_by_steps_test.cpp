@@ -28,7 +28,7 @@ TEST(HeightBySteps, IsThatOfTheSegmentInWhichMostWasWalked) {
   vo::DisplacementTrack track = level_track();
   for (int i = 0; i < 10; ++i) {
     track.frames.push_back({.valid = true, .displacement = 5, .segment = 1});
-    track.heights.push_back({20});
+    track.heights.push_back({30});
   }
   for (int i = 0; i < 10; ++i) {  // lost frames say nothing
     track.frames.push_back({.valid = false, .displacement = 9});

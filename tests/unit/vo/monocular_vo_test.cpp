@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
@@ -131,18 +132,51 @@ TEST(MonocularVo, StandingIsNoDisplacementAndNoLoss) {
   EXPECT_EQ(result.frames.back().segment, 0);
 }
 
+TEST(MonocularVo, ABadFrameEndsNeitherTheSegmentNorItsUnit) {
+  const std::vector<vo::Pose3> poses = walk(90, 0.06);
+  const std::vector<cv::Mat> clear = views(poses);
+  cv::Mat blurred;
+  cv::blur(clear[41], blurred, {61, 61});
+  const std::vector<std::vector<cv::Mat>> bad{
+      {cv::Mat(clear[40].size(), CV_8UC1, cv::Scalar(0))},
+      {blurred},
+      {test_support::noise_picture({320, 200}, 1)},
+      std::vector<cv::Mat>(6, cv::Mat(clear[40].size(), CV_8UC1, cv::Scalar(255)))};
+  for (const std::vector<cv::Mat>& pictures : bad) {
+    std::vector<cv::Mat> frames = clear;
+    std::ranges::copy(pictures, frames.begin() + 40);
+    const std::size_t found = 40 + pictures.size();
+    const vo::DisplacementTrack result = track(frames);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const bool lost =
+          i >= 40 && i <= found;  // how far the one found again is from the bad one is not known
+      EXPECT_EQ(result.frames[i].valid, !lost) << i;
+      EXPECT_EQ(result.frames[i].loss != TrackLoss::kNone, lost) << i;
+      EXPECT_EQ(result.frames[i].segment, 0) << i;
+      EXPECT_EQ(result.poses[i].has_value(), i < 40 || i >= found) << i;
+    }
+    // The way over the loss is in the unit before it, to the 3 % of the walk without one.
+    const auto way = [&](std::size_t from, std::size_t to) {
+      return cv::norm(result.poses[to]->position - result.poses[from]->position) /
+             cv::norm(poses[to].position - poses[from].position);
+    };
+    EXPECT_NEAR(way(30, 70) / way(0, 39), 1, 0.03);
+    EXPECT_NEAR(way(50, 80) / way(0, 39), 1, 0.03);
+  }
+}
+
 TEST(MonocularVo, ABlackoutIsALossAndANewSegment) {
-  std::vector<cv::Mat> frames = views(walk(90, 0.06));
-  for (std::size_t i = 40; i < 50; ++i) frames[i].setTo(0);
+  std::vector<cv::Mat> frames = views(walk(100, 0.06));
+  for (std::size_t i = 40; i < 60; ++i) frames[i].setTo(0);  // 0.8 s: no scene is taken up again after 0.5
   const vo::DisplacementTrack result = track(frames);
   for (std::size_t i = 0; i < 40; ++i) EXPECT_TRUE(result.frames[i].valid) << i;
-  for (std::size_t i = 40; i <= 50; ++i) {  // frame 50 sees, but not how far it is from 39
+  for (std::size_t i = 40; i <= 60; ++i) {  // frame 60 sees, but not how far it is from 39
     EXPECT_FALSE(result.frames[i].valid) << i;
     EXPECT_EQ(result.frames[i].loss, TrackLoss::kTooFewCorners) << i;
-    EXPECT_EQ(result.frames[i].segment, i < 50 ? 0 : 1) << i;
-    EXPECT_EQ(result.poses[i].has_value(), i == 50) << i;
+    EXPECT_EQ(result.frames[i].segment, i < 60 ? 0 : 1) << i;
+    EXPECT_EQ(result.poses[i].has_value(), i == 60) << i;
   }
-  for (std::size_t i = 51; i < 90; ++i) {
+  for (std::size_t i = 61; i < 100; ++i) {
     EXPECT_TRUE(result.frames[i].valid) << i;
     EXPECT_EQ(result.frames[i].segment, 1) << i;
   }

@@ -79,6 +79,7 @@ TEST(PoseSeries, NamesTheLineThatIsWrong) {
   refused("# c\n0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n", "f: line 3: has 7 numbers; expected 8");
   refused("0 0 0 0 0 0 0 x\n", "'x' is no number");
   refused("0 0 0 0 0 0 0 nan\n", "'nan' is no number");
+  refused("\x7f\x02\xffz\n", "line 1: '???z' is no number");
   refused("0 0 0 0 0 0 0 0\n", "no unit quaternion");
   refused("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "line 2: time 1 s does not follow 1 s");
   refused("1 0 0 0 0 1 0 0 0 0 1\n1\n", "has 11 numbers");

@@ -62,6 +62,12 @@ TEST(TieBySpeed, SaysNothingOfAWalkThatStandsOrIsNotTied) {
   EXPECT_FALSE(vo::tie_by_speed(lost.walk.time_s, lost.run(), lost.way, lost.tied));
 }
 
+TEST(TieBySpeed, SaysNothingWhereLittleOfTheSecondIsKnown) {
+  LostOnce lost(known_motion(60, 1.4, 1.4));
+  for (std::size_t i = kLost - 25; i < kLost - 5; ++i) lost.tied[i].reset();
+  EXPECT_FALSE(vo::tie_by_speed(lost.walk.time_s, lost.run(), lost.way, lost.tied));
+}
+
 TEST(TieByRelation, ReadsAlignmentErrorOnBothSides) {
   LostOnce lost(known_motion(60, 1, 1.8));
   const auto tie = vo::tie_by_relation(lost.walk.evidence(), lost.run(), lost.way, lost.tied);
@@ -74,6 +80,28 @@ TEST(TieByRelation, ReadsAlignmentErrorOnBothSides) {
   EXPECT_FALSE(vo::tie_by_relation(without, lost.run(), lost.way, lost.tied));
   const Displacements none(lost.walk.frames());
   EXPECT_FALSE(vo::tie_by_relation(lost.walk.evidence(), lost.run(), lost.way, none));
+}
+
+TEST(TieByRelation, GoesFurtherBackThanALongLoss) {
+  LostOnce lost(known_motion(60, 1, 1.8));
+  for (std::size_t i = 250; i < kLost; ++i) lost.tied[i].reset();  // in all 12 s, and it is read over 10
+  const auto tie = vo::tie_by_relation(lost.walk.evidence(), lost.run(), lost.way, lost.tied);
+  ASSERT_TRUE(tie);
+  EXPECT_NEAR(tie->scale, 4, 0.03 * 4);
+}
+
+TEST(TieByRelation, IsNotReadInATurn) {
+  LostOnce lost(known_motion(60, 1, 1.8));
+  // For four of the ten seconds it turns by half a radian a second, and the picture changes three times as
+  // much.
+  for (std::size_t i = kFound; i < kFound + 100; ++i) {
+    lost.walk.track.frames[i].turn_rad = i % 2 == 0 ? 0.02 : -0.02;
+    for (auto& errors : lost.walk.errors.by_separation) errors[i] *= 3;
+  }
+  const auto tie = vo::tie_by_relation(lost.walk.evidence(), lost.run(), lost.way, lost.tied);
+  ASSERT_TRUE(tie);
+  // The last frames before the turn ends and the first after are compared with those in it.
+  EXPECT_NEAR(tie->scale, 4, 0.05 * 4);
 }
 
 TEST(CombinedTie, WeighsByInverseVariance) {

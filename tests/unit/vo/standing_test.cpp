@@ -11,6 +11,7 @@
 
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
+#include <vo/image/patch_normalisation.hpp>
 #include <vo/motion/alignment_error.hpp>
 #include <vo/motion/standing.hpp>
 
@@ -102,6 +103,16 @@ TEST(StandingSteps, ArePassedOverWhereOnlyTheEndsOfASpanAreAlike) {
   // With the middle ones alike as well, a span is found; its steps count whatever lies between.
   for (std::size_t i = 8; i < 100; i += 16) std::ranges::copy(walk[0], walk[i].begin());
   EXPECT_EQ(std::ranges::count(vo::standing_steps(walk, times(100), vo::distant_error(walk)), true), 96);
+}
+
+TEST(StandingSteps, SayNothingOfPicturesOfNothing) {
+  // Black for 5 s, a trace of noise in it, between walking; and a stop of 5 s that goes black for the last 2.
+  vo::ImageStack walk = walk_with_a_stop(160, 100, 140);
+  for (std::size_t i = 40; i < 80; ++i)
+    std::ranges::fill(walk[i], static_cast<std::uint8_t>(vo::kNeutralByte + i % 2));
+  for (std::size_t i = 124; i < 140; ++i) std::ranges::fill(walk[i], vo::kNeutralByte);
+  const auto standing = vo::standing_steps(walk, times(160), vo::distant_error(walk));
+  for (std::size_t i = 0; i < 160; ++i) EXPECT_EQ(standing[i], i >= 101 && i <= 123) << i;
 }
 
 TEST(StandingSteps, GoByTimeNotByFrames) {

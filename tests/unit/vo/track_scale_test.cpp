@@ -83,6 +83,44 @@ TEST(TieTrackScale, BringsSegmentsToMetresBySteps) {
   }
 }
 
+TEST(TieTrackScale, ASegmentIsOneUnitOverFramesThatWereLost) {
+  KnownMotion walk = known_motion(40, 1, 1.8);
+  for (auto& frame : walk.track.frames) frame.displacement /= 0.2;
+  for (const std::size_t begin :
+       {300U, 340U, 345U}) {  // the runs between are shorter than any segment may be
+    for (std::size_t i = begin; i < begin + 3; ++i) walk.track.frames[i].valid = false;
+  }
+  vo::MotionEvidence evidence = walk.evidence();
+  const vo::ScaledTrack unscaled = vo::tie_track_scale(evidence, unsmoothed());
+  evidence.steps_m = walk.metres;
+  evidence.steps_known.assign(walk.frames(), true);
+  const vo::ScaledTrack in_metres = vo::tie_track_scale(evidence, unsmoothed());
+  for (std::size_t i = 1; i < walk.frames(); ++i) {
+    ASSERT_EQ(in_metres.displacement[i].has_value(), walk.track.frames[i].valid) << i;
+    ASSERT_EQ(unscaled.displacement[i].has_value(), walk.track.frames[i].valid) << i;
+    if (!in_metres.displacement[i]) continue;
+    EXPECT_NEAR(*in_metres.displacement[i], walk.metres[i], 1e-9) << i;  // rounding
+    EXPECT_NEAR(*unscaled.displacement[i], 5 * walk.metres[i], 1e-9) << i;
+  }
+}
+
+TEST(TieTrackScale, LeavesOutATurnBetweenTwoLosses) {
+  KnownMotion walk = known_motion(40, 1, 1.8);
+  walk.lose(300, 350, 5);
+  double z = 0;
+  for (std::size_t i = 0; i < walk.frames(); ++i) {
+    vo::TrackedDisplacement& frame = walk.track.frames[i];
+    if (i >= 310 && i < 325) frame = {.valid = true, .displacement = 0};  // it has no pose in any scene
+    z += frame.displacement;
+    walk.track.poses.push_back(i >= 300 && i < 349 ? std::nullopt
+                                                   : std::optional(vo::Pose3{.position = {0, 0, z}}));
+  }
+  const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), unsmoothed());
+  for (std::size_t i = 310; i < 325; ++i) EXPECT_FALSE(tied.displacement[i].has_value()) << i;
+  EXPECT_TRUE(tied.displacement[299].has_value());
+  EXPECT_TRUE(tied.displacement[360].has_value());
+}
+
 TEST(TieTrackScale, IsNotMisledByStepsThatWereNotFound) {
   KnownMotion walk = known_motion(40, 1, 1.8);
   vo::MotionEvidence evidence = walk.evidence();

@@ -28,10 +28,10 @@ struct StandingOptions {
 /// SSS has no such stage: there, sway and breathing of a standing walker count as motion, a fifth of walking
 /// by alignment error alone. But they come back to where they were: a span is standing if its first, middle
 /// and last frame are all within `limit` of each other. Three frames, because two places along a fence or a
-/// row of doors may look alike by chance.
+/// row of doors may look alike by chance. Black frames do not change either, and tell nothing.
 ///
-/// `time_s`: one per frame,
-/// increasing. O(frames * pixels), in parallel.
+/// `normalised`: bytes of `patch_normalise`; `time_s`: one per frame, increasing. O(frames * pixels), in
+/// parallel.
 std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const double> time_s,
                                  double distant_error, const StandingOptions& options = {});
 

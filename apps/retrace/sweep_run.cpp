@@ -1,0 +1,223 @@
+#include "sweep_run.hpp"
+
+#include "build.hpp"
+#include "progress_bar.hpp"
+#include "route_settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <spdlog/spdlog.h>
+
+#include <place/cost_matrix.hpp>
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+#include <vo/io/atomic_file.hpp>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+using vo::MotionSource;
+
+constexpr const char* kReference = "reference";
+
+struct Walks {
+  vo::Walk query;
+  vo::Walk reference;
+};
+
+/// Two walks cut down to keyframes, and how alike those are.
+struct Sampled {
+  std::vector<std::size_t> query_frames;
+  std::vector<std::size_t> reference_frames;
+  place::CostMatrix cost;
+};
+
+/// What `retrace build` and `retrace localise` make of the walks, up to the cost matrix.
+Sampled sample(const Walks& walks, Settings settings) {
+  place::Route route = new_route(settings);
+  add_traverse(route, kReference, walks.reference, {}, settings);
+  settings.sampling.sampling.unit = route.sampling.unit;
+  const place::Traverse& reference = route.traverses.front();
+  const place::SampledWalk query = place::sample_walk(walks.query, route, &reference, settings.sampling);
+  Sampled sampled{.query_frames = query.frames, .reference_frames = {}, .cost = {}};
+  for (const place::Keyframe& keyframe : reference.keyframes)
+    sampled.reference_frames.push_back(static_cast<std::size_t>(keyframe.frame));
+  sampled.cost =
+      place::cost_matrix(vo::patch_normalise(query.thumbnails, route.patch),
+                         vo::patch_normalise(reference.thumbnails, route.patch), settings.localiser.cost);
+  return sampled;
+}
+
+/// Keeps every K-th frame, such that there are about as many keyframes as with the motion of `settings`.
+int every_like(const Walks& walks, const Settings& settings) {
+  const Sampled sampled = sample(walks, settings);
+  const auto frames = static_cast<double>(walks.query.frames() + walks.reference.frames());
+  const auto keyframes = static_cast<double>(sampled.query_frames.size() + sampled.reference_frames.size());
+  return std::max(1, static_cast<int>(std::lround(frames / keyframes)));
+}
+
+std::optional<CellResult> run_cell(const Sampled& sampled, const place::CostMatrix& enhanced,
+                                   const Settings& settings, RunTruth truth) {
+  if (enhanced.references < static_cast<std::size_t>(settings.localiser.search.length)) return {};
+  const auto matches = place::search_sequences(enhanced, settings.localiser.search);
+  std::vector<place::ScoredQuery> queries;
+  for (std::size_t q = 0; q < matches.size(); ++q) {
+    std::optional<std::int64_t> reference;
+    if (matches[q].reference)
+      reference = static_cast<std::int64_t>(sampled.reference_frames[*matches[q].reference]);
+    queries.push_back(
+        judge(truth, static_cast<std::int64_t>(sampled.query_frames[q]), reference, matches[q].score));
+  }
+  const place::Evaluation e = place::evaluate(queries, truth.tolerance);
+  return CellResult{.query_keyframes = enhanced.queries,
+                    .reference_keyframes = enhanced.references,
+                    .max_f1 = e.best.f1,
+                    .max_f1_threshold = e.best.threshold,
+                    .precision = e.best.precision,
+                    .recall = e.best.recall,
+                    .auc_pr = e.auc_pr,
+                    .recall_at_100_precision = e.recall_at_100_precision,
+                    .recall_at_1 = e.recall_at_1};
+}
+
+/// A sweep under way: what is to be done, what is done, and where it is kept.
+class Sweep {
+ public:
+  Sweep(const SweepOptions& options, const std::vector<Axis>& axes, SweepResults& results)
+      : options_(options), axes_(axes), results_(results), truth_(read_truth(options.truth)) {
+    for (const Cell& cell : all_cells(axes_)) {
+      if (!results_.contains(cell)) missing_.push_back(cell);
+    }
+  }
+
+  /// Runs what is missing; false if the user stopped it.
+  bool run(bool every_given) {
+    if (missing_.empty()) return true;
+    read_walks();
+    if (!every_given) choose_every();
+    ProgressBar bar;
+    // Cells of one cost matrix stand together as the axes have them only by chance, so they are sorted.
+    std::ranges::stable_sort(missing_, {}, [&](const Cell& cell) { return matrix_key(cell); });
+    std::optional<Sampled> sampled;
+    std::string sampled_for;
+    for (std::size_t begin = 0; begin < missing_.size();) {
+      std::size_t end = begin;
+      while (end < missing_.size() && enhanced_key(missing_[end]) == enhanced_key(missing_[begin])) ++end;
+      if (begin == 0 || sampled_for != matrix_key(missing_[begin])) {
+        sampled_for = matrix_key(missing_[begin]);
+        sampled = sample_or_warn(missing_[begin]);
+      }
+      if (!run_together(sampled, begin, end, bar.callback())) return false;
+      begin = end;
+    }
+    return true;
+  }
+
+ private:
+  [[nodiscard]] Settings settings(const Cell& cell) const {
+    Settings settings = settings_at(options_.settings, axes_, cell);
+    if (settings.sampling.sampling.motion == MotionSource::kNone && every_ > 0)
+      settings.sampling.sampling.every = every_;
+    return settings;
+  }
+
+  /// The values in a cell that its cost matrix depends on.
+  [[nodiscard]] std::string matrix_key(const Cell& cell) const {
+    std::string key;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      if (shapes_the_matrix(axes_[i].setting)) key += cell[i] + "\n";
+    }
+    return key;
+  }
+
+  /// The same for the enhanced one.
+  [[nodiscard]] std::string enhanced_key(const Cell& cell) const {
+    std::string key = matrix_key(cell);
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      if (axes_[i].setting.starts_with("enhance")) key += cell[i] + "\n";
+    }
+    return key;
+  }
+
+  void read_walks() {
+    vo::WalkOptions walk = options_.settings.walk;
+    walk.preview_width_px = 0;
+    for (const Cell& cell : missing_) {  // what any of them needs
+      const vo::WalkOptions needed = settings(cell).walk;
+      walk.track_features |= needed.track_features;
+      walk.visual_odometry |= needed.visual_odometry;
+    }
+    ProgressBar bar;
+    walks_.reference = vo::read_walk(options_.reference, walk, bar.callback());
+    walks_.query = vo::read_walk(options_.query, walk, bar.callback());
+  }
+
+  /// Without motion, as many keyframes as the first motion gives.
+  void choose_every() {
+    for (const Cell& cell : all_cells(axes_)) {
+      const Settings with_motion = settings(cell);
+      if (with_motion.sampling.sampling.motion == MotionSource::kNone) continue;
+      if (std::ranges::find(options_.motions, "none") != options_.motions.end() &&
+          std::ranges::find(axes_, "every", &Axis::setting) == axes_.end())
+        every_ = every_like(walks_, with_motion);
+      return;
+    }
+  }
+
+  std::optional<Sampled> sample_or_warn(const Cell& cell) const {
+    try {
+      return sample(walks_, settings(cell));
+    } catch (const vo::Error& error) {
+      spdlog::warn("motion {}: {}", cell.front(), error.what());
+      return {};
+    }
+  }
+
+  /// The missing cells from `begin` to `end`, which share one enhanced matrix. The file is renewed after
+  /// every few, so that a sweep that is killed goes on from there.
+  bool run_together(const std::optional<Sampled>& sampled, std::size_t begin, std::size_t end,
+                    const vo::ProgressCallback& progress) {
+    place::CostMatrix enhanced;
+    if (sampled) {
+      enhanced = sampled->cost;
+      place::enhance_contrast(enhanced, settings(missing_[begin]).localiser.enhancement);
+    }
+    const std::size_t together = 4 * static_cast<std::size_t>(vo::thread_count());
+    for (; begin < end; begin += together) {
+      const std::size_t count = std::min(together, end - begin);
+      std::vector<std::optional<CellResult>> found(count);
+      if (sampled) {
+        vo::parallel_for(count, [&](std::size_t i) {
+          found[i] = run_cell(*sampled, enhanced, settings(missing_[begin + i]), truth_);
+        });
+      }
+      for (std::size_t i = 0; i < count; ++i) results_[missing_[begin + i]] = found[i];
+      vo::write_file(fs::path(options_.output) / "sweep.csv", sweep_csv(axes_, results_));
+      if (!progress({.stage = "sweeping",
+                     .done = static_cast<std::int64_t>(begin + count),
+                     .total = static_cast<std::int64_t>(missing_.size())}))
+        return false;
+    }
+    return true;
+  }
+
+  const SweepOptions& options_;
+  const std::vector<Axis>& axes_;
+  SweepResults& results_;
+  RunTruth truth_;
+  std::vector<Cell> missing_;
+  Walks walks_;
+  int every_ = 0;  ///< frames between keyframes without motion; 0: as the settings say
+};
+
+}  // namespace
+
+bool run_sweep(const SweepOptions& options, const std::vector<Axis>& axes, SweepResults& results,
+               bool every_given) {
+  return Sweep(options, axes, results).run(every_given);
+}
+
+}  // namespace retrace
