@@ -244,8 +244,7 @@ class AccuracyTest(unittest.TestCase):
             survey = ("--truth", SIM / "street_day.csv")
             by_steps = self.metrics(*walks, build=(*survey, "--motion", "steps"), localise=search)
             by_error = self.metrics(*walks, build=survey, localise=search)
-            # 0.02: keyframes 0.65, 0.7 and 0.75 m apart give 0.924, 0.911 and 0.949 by `local`.
-            self.assertGreaterEqual(by_steps["max_f1"], by_error["max_f1"] - 0.02)
+            self.assertGreaterEqual(by_steps["max_f1"], by_error["max_f1"])
 
 
 if __name__ == "__main__":

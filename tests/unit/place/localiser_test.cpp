@@ -74,6 +74,15 @@ double spacing_px(const place::Traverse& traverse) {
          static_cast<double>(traverse.keyframes.size() - 1);
 }
 
+/// The walk with a trajectory file that has it 0.1 m on at each frame.
+KnownWalk in_metres(KnownWalk known) {
+  known.walk.track.emplace();
+  known.walk.track->scale = vo::TrackScale::kMetric;
+  for (std::size_t i = 0; i < known.walk.frames(); ++i)
+    known.walk.track->frames.push_back({.valid = i > 0, .displacement = i > 0 ? 0.1 : 0, .sigma = 0});
+  return known;
+}
+
 /// Share of the query keyframes found within `tolerance_px` of where they are.
 double share_found(const place::Localisation& found, const KnownWalk& query, double tolerance_px) {
   std::size_t right = 0;
@@ -131,6 +140,26 @@ TEST_F(LocaliserTest, SamplesEvenlyWhateverTheSpeed) {
   EXPECT_NEAR(median(fast_px) / median(slow_px), 1, 0.35);
   // Tied to the first traverse, keyframes lie as far apart as its do.
   EXPECT_NEAR(median(slow_px), spacing_px(route_.traverses[0]), 0.35 * spacing_px(route_.traverses[0]));
+}
+
+TEST(SampleWalk, TiesWalksInMetresByAPriorOfTheirOwn) {
+  const Wall wall(kWallPx, 1);
+  place::Route route;
+  route.sampling.motion = vo::MotionSource::kFile;
+  add_traverse(route, "by day", in_metres(steady_walk(wall, 0.5)));
+  route.sampling.metric = true;
+  // Metres that are wrong by 1.8.
+  const auto query = in_metres(steady_walk(wall, 0.9));
+  place::WalkSamplingOptions options;
+  options.sampling = route.sampling;
+  const auto scale = [&] {
+    return place::sample_walk(query.walk, route, &route.traverses.front(), options).scale;
+  };
+  EXPECT_NEAR(scale(), 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
+  options.relative_scale.prior_weight = 1e6;
+  EXPECT_NEAR(scale(), 1.8, 0.2);
+  options.metric_scale.prior_weight = 1e6;
+  EXPECT_NEAR(scale(), 1, 0.1);
 }
 
 TEST_F(LocaliserTest, TiesTheScaleToTheFirstTraverse) {

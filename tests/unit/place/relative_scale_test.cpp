@@ -48,6 +48,12 @@ TEST(RelativeScale, FindsAPlantedScale) {
   }
 }
 
+TEST(RelativeScale, StaysNearOneByAStrongPrior) {
+  const auto query = walk(10, 1.5, 60), reference = walk(0, 1, 120);
+  EXPECT_NEAR(place::relative_scale(query, reference, {.prior_weight = 1}), 1.5, 1.5 * kAccuracy);
+  EXPECT_NEAR(place::relative_scale(query, reference, {.prior_weight = 1e6}), 1, kAccuracy);
+}
+
 TEST(RelativeScale, OfTheOtherDirectionIsTheInverse) {
   for (const double scale : {0.6, 1.5}) {
     const auto query = walk(20, scale, 80), reference = walk(0, 1, 150);
