@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <unistd.h>
 
+#include <vo/base/large_memory.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/image/patch_normalisation.hpp>
 
@@ -47,7 +48,9 @@ vo::ImageStack columns_of(const vo::ImageStack& images, int first, int width, in
 }  // namespace
 
 CostMatrix make_cost_matrix(std::size_t queries, std::size_t references) {
-  return {.queries = queries, .references = references, .values = std::vector<float>(queries * references)};
+  CostMatrix matrix{.queries = queries, .references = references, .values = {}};
+  vo::resize_populated(matrix.values, queries * references);
+  return matrix;
 }
 
 CostRange range_of(std::span<const float> costs) {

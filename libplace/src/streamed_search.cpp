@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <vo/base/large_memory.hpp>
+
 namespace place {
 namespace {
 
@@ -27,7 +29,8 @@ std::vector<SequenceMatch> search_streamed(const vo::ImageStack& queries, const 
   const std::size_t whole_blocks =
       options.kept_bytes / (std::max<std::size_t>(1, width) * sizeof(float) * kRows);
   const std::size_t kept_rows = std::min(costs.queries(), whole_blocks * kRows);
-  std::vector<float> kept(kept_rows * width), passing;
+  std::vector<float> kept, passing;
+  vo::resize_populated(kept, kept_rows * width);
   const auto block = [&](std::size_t first, std::size_t count) {
     if (first < kept_rows) return std::span(kept).subspan(first * width, count * width);
     passing.resize(kRows * width);

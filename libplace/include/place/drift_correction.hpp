@@ -41,14 +41,14 @@ struct DriftCorrectionOptions {
   double node_noise_m = 0.05;          ///< of one node's position in the odometry, metres
   double node_noise_rad = 0.01;        ///< of one node's heading (the trunk swings), radians
 
-  double match_least_m = 0.15;      ///< of the surest match along the path, metres
-  double match_doubtful_m = 3.5;    ///< the same at score 0, beside `match_least_m`; fades with ...
-  double match_score = 1;           ///< ... this score, in its unit
-  double aside_m = 0.25;            ///< across the path: two walkers do not tread the same line, metres
-  double match_heading_rad = 0.15;  ///< of a match's heading; far larger errors are let go
-  double match_correlation_m = 3;   ///< matches closer than this err alike, metres of the way
-  double steady_along_m = 0.1;      ///< what all matches err by along the path, metres; ...
-  double steady_aside_m = 0.16;     ///< ... and across: one walker keeps to a side of the other's line
+  double match_least_m = 0.15;       ///< of the surest match along the path, metres
+  double match_doubtful_m = 3.5;     ///< the same at score 0, beside `match_least_m`; fades with ...
+  double match_score = 1;            ///< ... this score, in its unit
+  double aside_m = 0.25;             ///< across the path: two walkers do not tread the same line, metres
+  double match_heading_rad = 0.15;   ///< of a match's heading; far larger errors are let go
+  double match_correlation_m = 1.5;  ///< matches closer than this err alike, metres of the way
+  double steady_along_m = 0.2;       ///< what all matches err by along the path, metres; ...
+  double steady_aside_m = 0.2;       ///< ... and across: one walker keeps to a side of the other's line
   double outlier_chi2 = 5.99;  ///< squared error, in variances, at which a match is let go: 95 % of 2 dof
 
   /// False, with a reason that names field, value and constraint, if a field is out of its range.

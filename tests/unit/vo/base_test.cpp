@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -7,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <vo/base/error.hpp>
+#include <vo/base/large_memory.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 #include <vo/base/trajectory.hpp>
@@ -19,6 +22,20 @@ TEST(Error, ComposesOneLine) {
   EXPECT_THAT(vo::Error("walk.mp4", "is empty").what(), StrEq("walk.mp4: is empty"));
   EXPECT_THAT(vo::Error("a.csv: row 3", "frame 'x'\nis no number", "an integer").what(),
               StrEq("a.csv: row 3: frame 'x' is no number; expected an integer"));
+}
+
+TEST(ResizePopulated, KeepsWhatThereIsAndAddsZeros) {
+  constexpr std::size_t kLarge = 10'000'001;  // bytes, of no whole page
+  std::vector<std::uint8_t> bytes(kLarge, 7);
+  vo::resize_populated(bytes, 2 * kLarge);
+  ASSERT_EQ(bytes.size(), 2 * kLarge);
+  EXPECT_EQ(std::ranges::count(bytes, 7), kLarge);
+  EXPECT_EQ(bytes[kLarge - 1], 7);
+  EXPECT_EQ(std::ranges::count(bytes, 0), kLarge);
+  vo::resize_populated(bytes, 3);
+  EXPECT_THAT(bytes, testing::ElementsAre(7, 7, 7));
+  vo::resize_populated(bytes, 0);
+  EXPECT_THAT(bytes, testing::IsEmpty());
 }
 
 TEST(ParallelFor, RunsEveryIndexOnceForAnyThreadCount) {

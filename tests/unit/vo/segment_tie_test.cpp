@@ -84,8 +84,9 @@ TEST(TieByRelation, ReadsAlignmentErrorOnBothSides) {
 
 TEST(TieByRelation, GoesFurtherBackThanALongLoss) {
   LostOnce lost(known_motion(60, 1, 1.8));
-  for (std::size_t i = 250; i < kLost; ++i) lost.tied[i].reset();  // in all 12 s, and it is read over 10
-  const auto tie = vo::tie_by_relation(lost.walk.evidence(), lost.run(), lost.way, lost.tied);
+  for (std::size_t i = 250; i < kLost; ++i) lost.tied[i].reset();  // in all 12 s, and it is read over 9
+  const auto tie =
+      vo::tie_by_relation(lost.walk.evidence(), lost.run(), lost.way, lost.tied, {.relation_window_s = 9});
   ASSERT_TRUE(tie);
   EXPECT_NEAR(tie->scale, 4, 0.03 * 4);
 }

@@ -29,10 +29,10 @@ struct TrackedDisplacement {
   double displacement = 0;         ///< in the unit of its segment, >= 0; the first frame of a walk: 0
   double sigma = 0;                ///< its standard deviation, same unit
   std::optional<double> turn_rad;  ///< change of heading, clockwise from above; none where it is not known
-  /// 0, 1, ..., never decreasing. After a loss a new segment begins with the first frame that has a pose
-  /// again; that frame is lost too, as how far it is from the frame before is not known. Lost frames without
-  /// a pose belong to the segment before them. Where a camera turned on the spot away from all it knew, a new
-  /// segment, with another unit, begins without a loss.
+  /// 0, 1, ..., never decreasing. After a loss the first frame that has a pose again is lost too, as how far
+  /// it is from the frame before is not known. A new segment begins with it, unless the source found it in
+  /// the unit of the one before. Lost frames without a pose belong to the segment before them. Where a camera
+  /// turned on the spot away from all it knew, a new segment, with another unit, begins without a loss.
   int segment = 0;
   TrackLoss loss = TrackLoss::kNone;
 };

@@ -38,7 +38,7 @@ struct MonocularVoOptions {
   std::size_t min_cells = 4;        ///< of 6 x 4 over the picture, that the landmarks lie in
   double max_turn_deg = 20;         ///< from one frame to the next
   double max_speedup = 5;           ///< times the median displacement of the last frames
-  double max_gap_s = 0.5;           ///< seconds without a frame
+  double max_gap_s = 0.5;           ///< seconds without a frame, or a pose, after which a scene is given up
   GroundHeightOptions ground;
   int seed = 1;  ///< of random samples
 
@@ -54,8 +54,10 @@ struct MonocularVoOptions {
 /// against each other, give the geometry and the first landmarks, whose median depth is the unit of length;
 /// from then on each frame's pose comes from the landmarks that it sees, new ones are placed from keyframes
 /// whose poses are known, so that the unit lasts, and the last keyframes are adjusted together. A camera that
-/// stands or only turns has displacement 0. Where a frame cannot be told it is lost, for a reason, and a new
-/// segment begins as soon as one can.
+/// stands or only turns has displacement 0. Where a frame cannot be told it is lost, for a reason; the next
+/// ones are tried again from the last that could, for as long as `max_gap_s`, so that a bad frame ends no
+/// unit. Meanwhile points of the new view are followed as well: what comes first, the old scene or a new
+/// segment with two views that tell one, goes on.
 class MonocularVo {
  public:
   /// Throws `std::invalid_argument` for options out of range.
