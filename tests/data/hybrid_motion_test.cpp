@@ -76,12 +76,10 @@ TEST_P(HybridMotionOnKitti, KeepsItsLengthThroughBlanks) {
   EXPECT_LE(std::abs(error), 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Blanks, HybridMotionOnKitti,
-                         testing::Values(std::array<std::size_t, 3>{150, 400, 650},
-                                         std::array<std::size_t, 3>{100, 300, 500},
-                                         std::array<std::size_t, 3>{250, 470, 720},
-                                         std::array<std::size_t, 3>{200, 260, 600},
-                                         std::array<std::size_t, 3>{11, 198, 394},
-                                         std::array<std::size_t, 3>{19, 88, 560}));
+INSTANTIATE_TEST_SUITE_P(
+    Blanks, HybridMotionOnKitti,
+    testing::Values(std::array<std::size_t, 3>{150, 400, 650}, std::array<std::size_t, 3>{100, 300, 500},
+                    std::array<std::size_t, 3>{250, 470, 720}, std::array<std::size_t, 3>{200, 260, 600},
+                    std::array<std::size_t, 3>{11, 198, 394}, std::array<std::size_t, 3>{19, 88, 560}));
 
 }  // namespace
