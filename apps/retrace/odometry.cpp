@@ -47,10 +47,45 @@ std::string_view unit_of(const vo::Walk& walk, const vo::WalkMotion& motion) {
   return walk.track ? "units" : "frames";
 }
 
+/// What a source by itself tells of each frame, with every run of frames of one unit brought to the length
+/// that `motion` has there; none where the source is lost or was not read.
+struct Alone {
+  std::vector<std::optional<double>> visual_odometry, alignment_error;
+};
+
+Alone each_alone(const vo::Walk& walk, const vo::WalkMotion& motion) {
+  const std::vector<std::optional<double>> none(walk.frames());
+  Alone alone{.visual_odometry = none, .alignment_error = none};
+  std::map<int, std::pair<double, double>> lengths;  // by segment: of the source, of `motion`
+  const auto measure = [&](int segment, std::size_t i, double displacement) {
+    lengths[segment].first += displacement;
+    lengths[segment].second += motion.frames[i].value;
+  };
+  const auto scaled = [&](int segment, double displacement) -> std::optional<double> {
+    const auto& [own, common] = lengths.at(segment);
+    return own > 0 ? std::optional(displacement * common / own) : std::nullopt;
+  };
+  if (walk.track) {
+    const auto& frames = walk.track->frames;
+    for (std::size_t i = 0; i < walk.frames(); ++i)
+      if (frames[i].valid) measure(frames[i].segment, i, frames[i].displacement);
+    for (std::size_t i = 0; i < walk.frames(); ++i)
+      if (frames[i].valid) alone.visual_odometry[i] = scaled(frames[i].segment, frames[i].displacement);
+  }
+  lengths.clear();
+  if (motion.visual) {
+    const std::vector<double>& displacement = motion.visual->displacement;
+    for (std::size_t i = 0; i < walk.frames(); ++i) measure(0, i, displacement[i]);
+    for (std::size_t i = 0; i < walk.frames(); ++i) alone.alignment_error[i] = scaled(0, displacement[i]);
+  }
+  return alone;
+}
+
 std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
   std::string csv =
       "frame,time_s,displacement,unit,source,orientation_deg,dx_px,matches,heading_deg,"
-      "step_signal,step_threshold,reliable,x_m,y_m,displacement_sigma\n";
+      "step_signal,step_threshold,reliable,x_m,y_m,displacement_sigma,vo_displacement,sad_displacement\n";
+  const Alone alone = each_alone(walk, motion);
   const vo::PedestrianMotion& gait = *motion.pedestrian;
   const std::vector<double>& signal = vo::values_of(gait.step_signal, gait.signal);
   const std::string_view unit = unit_of(walk, motion);
@@ -61,11 +96,12 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
     const auto measured = [](const std::optional<double>& value) {
       return value ? fmt::format("{:.6f}", *value) : std::string();
     };
-    csv += fmt::format("{},{:.6f},{:.6f},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f},{:.6f}\n", i,
-                       walk.time_s[i], moved.value, unit, vo::name_of(moved.source),
+    csv += fmt::format("{},{:.6f},{:.6f},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f},{:.6f},{},{}\n",
+                       i, walk.time_s[i], moved.value, unit, vo::name_of(moved.source),
                        measured(tracked.orientation_deg), measured(tracked.shift_px), tracked.matches,
                        gait.signal.heading_rad[i] * kDegrees, signal[i], gait.detection.delta_dyn_deg[i],
-                       gait.signal.reliable[i] ? 1 : 0, pose.x_m, pose.y_m, moved.sigma);
+                       gait.signal.reliable[i] ? 1 : 0, pose.x_m, pose.y_m, moved.sigma,
+                       measured(alone.visual_odometry[i]), measured(alone.alignment_error[i]));
   }
   return csv;
 }

@@ -153,10 +153,17 @@ class CliTest(unittest.TestCase):
         # Steps tell metres, known to a step: by how much of it is made when the walk begins and ends.
         self.assertAlmostEqual(walked, 15, delta=step_length)
         self.assertIn("vo", {row["source"] for row in frames})
+        # Each source alone is brought to the length walked where it knows it, and goes its own way within that.
+        for alone in ("vo_displacement", "sad_displacement"):
+            known = [(float(row[alone]), float(row["displacement"])) for row in frames if row[alone]]
+            self.assertGreater(len(known), 0.9 * len(frames), alone)
+            self.assertAlmostEqual(sum(own for own, _ in known), sum(moved for _, moved in known), delta=0.01, msg=alone)
+        self.assertGreater(max(abs(float(row["sad_displacement"]) - float(row["displacement"])) for row in frames), 0.005)
         check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "by_steps", "--step-length", step_length,
               "--motion", "steps")
         by_steps = rows(self.folder / "by_steps" / "frames.csv")
         self.assertEqual({row["source"] for row in by_steps[1:]}, {"steps"})
+        self.assertEqual({row["vo_displacement"] for row in by_steps}, {""})
         self.assertAlmostEqual(sum(float(row["displacement"]) for row in by_steps), 15, delta=step_length)
         activities = {row["activity"] for row in rows(out / "activity.csv")}
         self.assertIn("walking", activities)

@@ -291,6 +291,19 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
                             .colour = "green",
                             .dash = {7, 5}});
   }
+  // SSS Fig. 9: what the sources make of it by themselves. Lost frames are no way at all.
+  const auto add_alone = [&](std::string name, const std::vector<double>& displacement, std::string colour) {
+    if (std::ranges::all_of(displacement, [](double value) { return std::isnan(value); })) return;
+    std::vector<double> moved;
+    for (const double value : displacement) moved.push_back(std::isnan(value) ? 0 : value);
+    chart.series.push_back({.name = std::move(name),
+                            .x = frames.time_s,
+                            .y = over_half_a_second(moved, frames.time_s),
+                            .colour = std::move(colour),
+                            .width_px = 1});
+  };
+  add_alone("visual odometry alone", frames.vo_displacement, "blue");
+  add_alone("alignment error alone", frames.sad_displacement, "purple");
   static const std::map<std::string, std::pair<std::string, std::string>> kShaded{
       {"steps", {"by steps", "ochre"}},
       {"sad", {"by alignment error", "purple"}},

@@ -73,13 +73,18 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
   put_errors(page, walk);
   page.chart(
       "Steps", gait_chart(walk),
-      "A peak beyond both thresholds is a step with the left leg (triangle), a valley one with the right "
-      "(diamond); outlines are steps filled in. Zoom in to see them [PVO Fig. 3].");
+      walk.summary.value("step_signal", "orientation") == "bounce"
+          ? "A valley below the threshold is a foot that lands, left (triangle) and right (diamond) by "
+            "turns; outlines are steps filled in. Zoom in to see them."
+          : "A peak beyond both thresholds is a step with the left leg (triangle), a valley one with the "
+            "right (diamond); outlines are steps filled in. Zoom in to see them [PVO Fig. 3].");
   page.chart("Activity", activity_chart(walk), "Each shading is what was done in that second.");
   page.chart(
       "Speed", speed_chart(walk),
       "From the displacement of the half second about each frame. Unshaded, it is visual odometry's, in "
-      "metres by the steps around, or in one unit by the ground [SSS Fig. 9].");
+      "metres by the steps around, or in one unit by the ground; thin lines are sources by themselves, of "
+      "the "
+      "same mean speed [SSS Fig. 9].");
   page.chart("Heading", heading_chart(walk), "");
   page.chart("Matches", matches_chart(walk), "Points followed over the tracking window.");
   put_settings(page, folder / "config.toml");

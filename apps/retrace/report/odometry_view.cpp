@@ -31,6 +31,10 @@ OdometryView read_odometry(const fs::path& folder) {
     walk.summary = nlohmann::ordered_json::parse(file, nullptr, false);
   if (fs::exists(folder / "frames.csv")) {
     const vo::CsvTable table = vo::CsvTable::read(folder / "frames.csv");
+    const auto alone = [&](const char* column) {
+      return table.has(column) ? or_nan(table.optional_numbers(column))
+                               : std::vector<double>(table.rows(), NAN);
+    };
     walk.frames = {.time_s = table.numbers("time_s"),
                    .displacement = table.numbers("displacement"),
                    .orientation_deg = or_nan(table.optional_numbers("orientation_deg")),
@@ -39,7 +43,9 @@ OdometryView read_odometry(const fs::path& folder) {
                    .signal = table.numbers("step_signal"),
                    .threshold = table.numbers("step_threshold"),
                    .source = table.text("source"),
-                   .reliable = table.indices("reliable")};
+                   .reliable = table.indices("reliable"),
+                   .vo_displacement = alone("vo_displacement"),
+                   .sad_displacement = alone("sad_displacement")};
   }
   if (fs::exists(folder / "steps.csv")) {
     const vo::CsvTable table = vo::CsvTable::read(folder / "steps.csv");

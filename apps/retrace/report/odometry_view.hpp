@@ -17,6 +17,7 @@ struct OdometryView {
     std::vector<double> time_s, displacement, orientation_deg, matches, heading_deg, signal, threshold;
     std::vector<std::string> source;
     std::vector<std::int64_t> reliable;
+    std::vector<double> vo_displacement, sad_displacement;  ///< each source alone
   } frames;  ///< by frame; empty without frames.csv, and NaN where there is no value
   struct Steps {
     std::vector<double> time_s;
