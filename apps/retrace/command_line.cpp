@@ -41,6 +41,14 @@ std::string config_file_in(const std::vector<std::string>& arguments) {
   return {};
 }
 
+/// CLI11 writes the upper bound of "positive" out, with its 309 digits.
+std::string without_endless_bounds(std::string message) {
+  const std::size_t range = message.find(" not in range "), bound = message.find(" to 179769");
+  if (range != std::string::npos && bound != std::string::npos)
+    message.replace(range, std::string::npos, ": expected a positive number");
+  return message;
+}
+
 /// The nearest flag of the command to the first that it does not have.
 std::string hint_for(const CLI::App& root) {
   const auto chosen = root.get_subcommands();
@@ -94,7 +102,7 @@ int run(int argc, char** argv) {
     root.parse(reversed);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return root.exit(error);
-    fmt::print(stderr, "retrace: {}{}\n", error.what(), hint_for(root));
+    fmt::print(stderr, "retrace: {}{}\n", without_endless_bounds(error.what()), hint_for(root));
     fmt::print(stderr, "Run `retrace {}--help` for more.\n",
                root.get_subcommands().empty() ? "" : root.get_subcommands().front()->get_name() + " ");
     return kUsage;
