@@ -85,9 +85,9 @@ DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const 
                     options.start_s + time_s.back()),
         "the walk's clock, or the file's time at its first frame");
   }
+  // The first frame has no way behind it. Who allows no gap at all asks for poses only.
   const auto valid = std::ranges::count(track.frames, true, &TrackedDisplacement::valid);
-  if (time_s.size() > 1 &&
-      valid <= (track.frames[0].valid ? 1 : 0)) {  // the first frame has no way behind it
+  if (options.max_gap_s > 0 && time_s.size() > 1 && valid <= (track.frames[0].valid ? 1 : 0)) {
     throw Error(series.source, "has no two poses at neighbouring frames of the walk",
                 fmt::format("poses at most {} s apart", options.max_gap_s));
   }
