@@ -1,6 +1,6 @@
 #pragma once
 
-#include "place/sequence_search.hpp"
+#include "place/search_lines.hpp"
 
 #include <cstddef>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "support/synthetic_walk.hpp"
+#include "support/known_walk.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <algorithm>
@@ -17,71 +17,8 @@
 
 namespace {
 
-using test_support::places;
-using test_support::Wall;
-using testing::IsEmpty;
+using namespace test_support;
 using testing::SizeIs;
-
-constexpr int kWallPx = 600;
-
-/// A walk and where its frames truly are.
-struct KnownWalk {
-  std::vector<double> place_px;
-  vo::Walk walk;
-};
-
-KnownWalk known_walk(const Wall& wall, std::vector<double> place_px) {
-  vo::Walk walk = wall.walk(place_px);
-  return {std::move(place_px), std::move(walk)};
-}
-
-/// A steady walk along the whole wall.
-KnownWalk steady_walk(const Wall& wall, double speed_px, double start_px = 0, double end_px = kWallPx) {
-  const auto frames = static_cast<std::size_t>((end_px - start_px) / speed_px);
-  return known_walk(wall, places(start_px, std::vector<double>(frames, speed_px)));
-}
-
-/// Distances along the wall at a tenth of a metre per pixel, and poses to match.
-place::Survey survey_of(const KnownWalk& known) {
-  place::Survey survey{.source = "truth.csv", .pose = {}, .distance_m = {}};
-  for (const double place_px : known.place_px) {
-    survey.distance_m.emplace_back(place_px / 10);
-    survey.pose.emplace_back(vo::Pose2{place_px / 10, 0, 0});
-  }
-  return survey;
-}
-
-/// Adds a walk to a route, the first one giving the sampling unit.
-void add_traverse(place::Route& route, const std::string& name, const KnownWalk& known,
-                  place::WalkSamplingOptions options = {}, bool surveyed = true) {
-  options.sampling = route.sampling;
-  const place::Traverse* first = route.traverses.empty() ? nullptr : &route.traverses.front();
-  const auto sampled = place::sample_walk(known.walk, route, first, options);
-  route.sampling.unit = sampled.unit;
-  route.traverses.push_back(place::make_traverse(name, known.walk, sampled,
-                                                 surveyed ? std::optional(survey_of(known)) : std::nullopt));
-}
-
-place::SampledWalk sample_query(const KnownWalk& known, const place::Route& route) {
-  place::WalkSamplingOptions options;
-  options.sampling = route.sampling;
-  return place::sample_walk(known.walk, route, &route.traverses.front(), options);
-}
-
-/// Mean pixels between neighbouring keyframes of a traverse.
-double spacing_px(const place::Traverse& traverse) {
-  return 10 * (*traverse.keyframes.back().distance_m - *traverse.keyframes.front().distance_m) /
-         static_cast<double>(traverse.keyframes.size() - 1);
-}
-
-/// The walk with a trajectory file that has it 0.1 m on at each frame.
-KnownWalk in_metres(KnownWalk known) {
-  known.walk.track.emplace();
-  known.walk.track->scale = vo::TrackScale::kMetric;
-  for (std::size_t i = 0; i < known.walk.frames(); ++i)
-    known.walk.track->frames.push_back({.valid = i > 0, .displacement = i > 0 ? 0.1 : 0, .sigma = 0});
-  return known;
-}
 
 /// Share of the query keyframes found within `tolerance_px` of where they are.
 double share_found(const place::Localisation& found, const KnownWalk& query, double tolerance_px) {
@@ -105,116 +42,6 @@ class LocaliserTest : public testing::Test {
   place::Route route_;
   place::LocaliserOptions options_;
 };
-
-TEST(SampleWalk, EveryKthWithoutMotion) {
-  const Wall wall(kWallPx, 1);
-  const auto known = steady_walk(wall, 1, 0, 100);
-  place::WalkSamplingOptions options;
-  options.sampling = {.motion = vo::MotionSource::kNone, .every = 7};
-  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
-  ASSERT_THAT(sampled.frames, SizeIs(15));  // 0, 7, ..., 98 of 101
-  for (std::size_t k = 0; k < 15; ++k) EXPECT_EQ(sampled.frames[k], 7 * k);
-  EXPECT_THAT(sampled.displacement, IsEmpty());
-  EXPECT_FALSE(sampled.motion_model.learned());
-  EXPECT_EQ(sampled.unit, 0);
-  EXPECT_EQ(sampled.scale, 1);
-  EXPECT_EQ(sampled.thumbnails.pixels, vo::select(known.walk.thumbnails, sampled.frames).pixels);
-}
-
-TEST_F(LocaliserTest, SamplesEvenlyWhateverTheSpeed) {
-  // Half the frames go at twice the speed of the others.
-  std::vector<double> speed_px(600, 0.3);
-  speed_px.insert(speed_px.end(), 300, 0.6);
-  const auto known = known_walk(wall_, places(50, speed_px));
-  const auto sampled = sample_query(known, route_);
-  std::vector<double> slow_px, fast_px;
-  for (std::size_t k = 1; k < sampled.frames.size(); ++k) {
-    const double gap_px = known.place_px[sampled.frames[k]] - known.place_px[sampled.frames[k - 1]];
-    (sampled.frames[k] < 600 ? slow_px : fast_px).push_back(gap_px);
-  }
-  const auto median = [](std::vector<double> values) {
-    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-    return values[values.size() / 2];
-  };
-  // Without motion the ratio would be 2; each gap is right to a step of a frame at either end.
-  EXPECT_NEAR(median(fast_px) / median(slow_px), 1, 0.35);
-  // Tied to the first traverse, keyframes lie as far apart as its do.
-  EXPECT_NEAR(median(slow_px), spacing_px(route_.traverses[0]), 0.35 * spacing_px(route_.traverses[0]));
-}
-
-TEST(SampleWalk, TiesWalksInMetresByAPriorOfTheirOwn) {
-  const Wall wall(kWallPx, 1);
-  place::Route route;
-  route.sampling.motion = vo::MotionSource::kFile;
-  add_traverse(route, "by day", in_metres(steady_walk(wall, 0.5)));
-  route.sampling.metric = true;
-  // Metres that are wrong by 1.8.
-  const auto query = in_metres(steady_walk(wall, 0.9));
-  place::WalkSamplingOptions options;
-  options.sampling = route.sampling;
-  const auto scale = [&] {
-    return place::sample_walk(query.walk, route, &route.traverses.front(), options).scale;
-  };
-  EXPECT_NEAR(scale(), 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
-  options.relative_scale.prior_weight = 1e6;
-  EXPECT_NEAR(scale(), 1.8, 0.2);
-  options.metric_scale.prior_weight = 1e6;
-  EXPECT_NEAR(scale(), 1, 0.1);
-}
-
-TEST_F(LocaliserTest, TiesTheScaleToTheFirstTraverse) {
-  // Walks at one speed throughout are sampled by their own mean: at 0.9 pixels a frame instead of 0.5, a
-  // keyframe step reaches 1.8 times as far.
-  const auto fast = steady_walk(wall_, 0.9);
-  place::WalkSamplingOptions options;
-  options.sampling = route_.sampling;
-  const auto tied = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
-  EXPECT_NEAR(tied.scale, 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
-  options.tie_scale = false;
-  const auto loose = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
-  EXPECT_EQ(loose.scale, 1);
-  EXPECT_LT(loose.frames.size(), tied.frames.size());
-  EXPECT_EQ(place::sample_walk(fast.walk, route_, nullptr, options).unit, route_.sampling.unit);
-}
-
-TEST_F(LocaliserTest, MakesATraverseOfASampledWalk) {
-  const auto known = steady_walk(wall_, 0.5);
-  const place::Traverse& traverse = route_.traverses[0];
-  EXPECT_EQ(traverse.name, "by day");
-  EXPECT_EQ(traverse.source, "wall");
-  EXPECT_EQ(traverse.pose_source, "truth.csv");
-  EXPECT_EQ(traverse.frames, static_cast<std::int64_t>(known.place_px.size()));
-  EXPECT_EQ(traverse.duration_s, known.walk.time_s.back());
-  EXPECT_TRUE(traverse.motion_model.learned());
-  ASSERT_EQ(traverse.thumbnails.size(), traverse.keyframes.size());
-  ASSERT_GT(traverse.keyframes.size(), 50U);
-  for (std::size_t k = 0; k < traverse.keyframes.size(); ++k) {
-    const auto& keyframe = traverse.keyframes[k];
-    const auto frame = static_cast<std::size_t>(keyframe.frame);
-    EXPECT_EQ(keyframe.time_s, known.walk.time_s[frame]);
-    EXPECT_EQ(keyframe.distance_m, known.place_px[frame] / 10);
-    EXPECT_EQ(keyframe.pose->x_m, known.place_px[frame] / 10);
-    EXPECT_THAT(traverse.thumbnails[k], testing::ElementsAreArray(known.walk.thumbnails[frame]));
-    // Each multiple of the unit has the frame nearest to it, which is within half the fastest step, 2.
-    EXPECT_NEAR(keyframe.displacement, static_cast<double>(k) * route_.sampling.unit, 1) << k;
-  }
-}
-
-TEST(MakeTraverse, RefusesTheSurveyOfAnotherWalk) {
-  const Wall wall(100, 1);
-  const auto known = steady_walk(wall, 1, 0, 20);
-  place::WalkSamplingOptions options;
-  options.sampling.motion = vo::MotionSource::kNone;
-  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
-  auto survey = survey_of(known);
-  EXPECT_NO_THROW(place::make_traverse("a", known.walk, sampled, survey));
-  survey.distance_m.pop_back();
-  EXPECT_THROW(place::make_traverse("a", known.walk, sampled, survey), std::invalid_argument);
-  const auto bare = place::make_traverse("a", known.walk, sampled, std::nullopt);
-  EXPECT_EQ(bare.pose_source, "");
-  EXPECT_FALSE(bare.keyframes[3].distance_m || bare.keyframes[3].pose);
-  EXPECT_EQ(bare.keyframes[3].displacement, 0);
-}
 
 TEST_F(LocaliserTest, FindsAWalkAtAnotherSpeed) {
   // A part of the wall, at twice the speed and then at half.
@@ -442,46 +269,6 @@ TEST_F(LocaliserTest, IsTheSameForAnyThreadCount) {
     EXPECT_EQ(one.matches[q].place->keyframe, four.matches[q].place->keyframe);
     EXPECT_EQ(one.matches[q].score, four.matches[q].score);
   }
-}
-
-/// A match of keyframe q to a traverse; with a pose `x_m` east, unless that is missing.
-place::Match match_on(const std::string& traverse, std::optional<double> x_m, bool accepted = true) {
-  place::Match match{.score = 2, .accepted = accepted};
-  match.place = place::Place{.traverse = traverse};
-  if (x_m) match.place->pose = vo::Pose2{*x_m, 0, 0};
-  return match;
-}
-
-TEST(PoseFixes, AreSurveyedIfAnyIs) {
-  place::Route route;
-  route.traverses.resize(4);
-  const char* names[] = {"own odometry", "survey", "second survey", "own again"};
-  for (std::size_t i = 0; i < 4; ++i) {
-    route.traverses[i].name = names[i];
-    route.traverses[i].surveyed = i == 1 || i == 2;
-  }
-  std::vector<place::Match> matches{match_on("own odometry", 1),         match_on("survey", 2),
-                                    match_on("own odometry", 3),         match_on("own odometry", 4),
-                                    match_on("second survey", 5),        match_on("second survey", 6),
-                                    match_on("second survey", 7, false), match_on("survey", {})};
-  matches.emplace_back();  // nothing matched
-  const auto surveyed = place::pose_fixes(route, matches);
-  ASSERT_THAT(surveyed.fixes, SizeIs(3));
-  EXPECT_EQ(surveyed.fixes[0].node, 1U);
-  EXPECT_EQ(surveyed.fixes[0].pose.x_m, 2);
-  EXPECT_EQ(surveyed.fixes[0].score, 2);
-  EXPECT_EQ(surveyed.fixes[2].node, 5U);
-  EXPECT_EQ(surveyed.traverse, 2U);  // with two of the three
-
-  // Two walks' odometry have nothing in common: the one with more.
-  const auto own = place::pose_fixes(
-      route, {match_on("own again", 1), match_on("own odometry", 2), match_on("own odometry", 3)});
-  ASSERT_THAT(own.fixes, SizeIs(2));
-  EXPECT_EQ(own.fixes[0].node, 1U);
-  EXPECT_EQ(own.traverse, 0U);
-
-  EXPECT_THAT(place::pose_fixes(route, {}).fixes, IsEmpty());
-  EXPECT_FALSE(place::pose_fixes(route, {match_on("survey", {})}).traverse);
 }
 
 }  // namespace
