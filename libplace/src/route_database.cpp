@@ -182,7 +182,6 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
       "? "
       "ORDER BY position");
   keyframe.bind(id);
-  traverse.keyframes.reserve(static_cast<std::size_t>(std::max<std::int64_t>(0, keyframes)));
   while (keyframe.step()) {
     Keyframe k;
     k.frame = keyframe.integer();

@@ -55,6 +55,18 @@ TEST(Candidates, HoldThePlacesOfTheWalkWithTheirNeighbourhood) {
   }
 }
 
+TEST(Candidates, SeeTheBorderOfImagesThatNoSquaresFit) {
+  // 17 x 9 pixels in squares of 4: the last column and row have narrow ones of their own, and all that
+  // differs.
+  vo::ImageStack references = random_images(17, 9, 3000, 5);
+  for (std::size_t i = 0; i < references.size(); ++i)
+    for (std::size_t y = 0; y < 8; ++y) std::ranges::fill(references[i].subspan(17 * y, 16), 128);
+  const auto found =
+      place::candidates(noisy(references, 1000, 64), references, {.sample = 200, .run = 16, .stretches = 3});
+  for (std::size_t r = 1000; r < 1064; ++r) EXPECT_TRUE(std::ranges::binary_search(found, r)) << r;
+  EXPECT_LT(found.size(), 2000U);
+}
+
 TEST(Candidates, OfASmallReferenceAreAllOfIt) {
   const auto references = random_images(8, 4, 50, 1);
   const auto found = place::candidates(random_images(8, 4, 5, 2), references, {.sample = 50});
@@ -84,6 +96,7 @@ TEST(Candidates, RefuseWhatDoesNotFit) {
   const auto images = random_images(8, 4, 5, 1);
   EXPECT_THROW(place::candidates(images, random_images(4, 8, 5, 1)), std::invalid_argument);
   EXPECT_THROW(place::candidates(images, images, {.dimensions = 0}), std::invalid_argument);
+  EXPECT_THROW(place::candidates(images, images, {.pool_px = 0}), std::invalid_argument);
 }
 
 }  // namespace

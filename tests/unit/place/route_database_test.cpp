@@ -215,9 +215,10 @@ TEST(RouteDatabase, FindsTruncation) {
   const TemporaryFolder folder;
   place::write_route(folder / "r.db", example_route());
   const std::string bytes = read_file(folder / "r.db");
-  // Within the header, within a page, at a page's end (4096 bytes), before the last byte.
-  for (const std::size_t length : {std::size_t{50}, std::size_t{3000}, std::size_t{4096}, bytes.size() / 2,
-                                   bytes.size() / 2 / 4096 * 4096, bytes.size() - 1}) {
+  // Within the header, within a page, at a page's end, before the last byte.
+  constexpr std::size_t kPage = 16384;
+  for (const std::size_t length : {std::size_t{50}, std::size_t{3000}, kPage, bytes.size() / 2,
+                                   bytes.size() / 2 / kPage * kPage, bytes.size() - 1}) {
     SCOPED_TRACE(length);
     const auto path = folder.write("t.db", bytes.substr(0, length));
     EXPECT_THROW_WITH(place::read_route(path), vo::Error, "t.db: is ");
@@ -236,6 +237,28 @@ TEST(RouteDatabase, FindsAFlippedBitOfAThumbnail) {
   bytes[found + 13] ^= 1;
   EXPECT_THROW_WITH(place::read_route(folder.write("r.db", bytes)), vo::Error,
                     "r.db: is damaged: a block of thumbnails does not fit its checksum");
+}
+
+TEST(RouteDatabase, FindsThumbnailsWithoutAKeyframeAndCountsThatAreNotTrue) {
+  const TemporaryFolder folder;
+  const auto damaged_by = [&](const char* sql) {
+    place::write_route(folder / "r.db", example_route());
+    place::sqlite::Database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db").run(sql);
+    std::string said;
+    try {
+      static_cast<void>(place::read_route(folder / "r.db"));
+    } catch (const vo::Error& error) {
+      said = error.what();
+    }
+    return said;
+  };
+  EXPECT_THAT(damaged_by("DELETE FROM keyframe WHERE traverse = 1 AND position = 0;"
+                         "UPDATE traverse SET keyframes = keyframes - 1 WHERE id = 1"),
+              testing::HasSubstr("r.db: is damaged: there are more thumbnails than keyframes"));
+  EXPECT_THAT(damaged_by("DELETE FROM thumbnail_chunk WHERE traverse = 1"),
+              testing::HasSubstr("thumbnails are missing"));
+  EXPECT_THAT(damaged_by("UPDATE traverse SET keyframes = 1152921504606846976 WHERE id = 1"),
+              testing::HasSubstr("keyframes are missing"));
 }
 
 TEST(RouteDatabase, AnyDamageIsAnErrorThatNamesTheFileOrDoesNoHarm) {
