@@ -16,10 +16,5 @@ std::optional<Chart> heading_chart(const OdometryView& walk);
 std::optional<Chart> speed_chart(const OdometryView& walk);
 /// Matches of each frame, where too few shaded.
 std::optional<Chart> matches_chart(const OdometryView& walk);
-/// The trajectory, laid on the truth where there is one.
-std::optional<Chart> trajectory_chart(const OdometryView& walk);
-/// Error against distance with its standard deviation (PVO Fig. 7).
-std::optional<Chart> position_error_chart(const OdometryView& walk);
-std::optional<Chart> heading_error_chart(const OdometryView& walk);
 
 }  // namespace retrace

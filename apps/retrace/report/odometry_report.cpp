@@ -2,6 +2,7 @@
 
 #include "report/odometry_charts.hpp"
 #include "report/page.hpp"
+#include "report/position_charts.hpp"
 #include "report/settings_table.hpp"
 
 #include <fmt/format.h>
@@ -82,9 +83,8 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
   page.chart(
       "Speed", speed_chart(walk),
       "From the displacement of the half second about each frame. Unshaded, it is visual odometry's, in "
-      "metres by the steps around, or in one unit by the ground; thin lines are sources by themselves, of "
-      "the "
-      "same mean speed [SSS Fig. 9].");
+      "metres by the steps around, or in one unit by the ground; thin lines are the sources by themselves "
+      "[SSS Fig. 9].");
   page.chart("Heading", heading_chart(walk), "");
   page.chart("Matches", matches_chart(walk), "Points followed over the tracking window.");
   put_settings(page, folder / "config.toml");
