@@ -47,45 +47,43 @@ std::string_view unit_of(const vo::Walk& walk, const vo::WalkMotion& motion) {
   return walk.track ? "units" : "frames";
 }
 
-/// What a source by itself tells of each frame, with every run of frames of one unit brought to the length
-/// that `motion` has there; none where the source is lost or was not read.
-struct Alone {
-  std::vector<std::optional<double>> visual_odometry, alignment_error;
+/// What a source by itself tells of a frame, in a unit of its own.
+struct Told {
+  std::optional<double> displacement;
+  int unit = 0;
 };
 
-Alone each_alone(const vo::Walk& walk, const vo::WalkMotion& motion) {
-  const std::vector<std::optional<double>> none(walk.frames());
-  Alone alone{.visual_odometry = none, .alignment_error = none};
-  std::map<int, std::pair<double, double>> lengths;  // by segment: of the source, of `motion`
-  const auto measure = [&](int segment, std::size_t i, double displacement) {
-    lengths[segment].first += displacement;
-    lengths[segment].second += motion.frames[i].value;
-  };
-  const auto scaled = [&](int segment, double displacement) -> std::optional<double> {
-    const auto& [own, common] = lengths.at(segment);
-    return own > 0 ? std::optional(displacement * common / own) : std::nullopt;
-  };
-  if (walk.track) {
-    const auto& frames = walk.track->frames;
-    for (std::size_t i = 0; i < walk.frames(); ++i)
-      if (frames[i].valid) measure(frames[i].segment, i, frames[i].displacement);
-    for (std::size_t i = 0; i < walk.frames(); ++i)
-      if (frames[i].valid) alone.visual_odometry[i] = scaled(frames[i].segment, frames[i].displacement);
+/// The same with all frames of one unit brought to the length that `motion` has over them.
+std::vector<std::optional<double>> to_common_unit(const std::vector<Told>& told,
+                                                  const vo::WalkMotion& motion) {
+  std::map<int, std::pair<double, double>> lengths;  // by unit: as told, of `motion`
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (!told[i].displacement) continue;
+    auto& [own, common] = lengths[told[i].unit];
+    own += *told[i].displacement;
+    common += motion.frames[i].value;
   }
-  lengths.clear();
-  if (motion.visual) {
-    const std::vector<double>& displacement = motion.visual->displacement;
-    for (std::size_t i = 0; i < walk.frames(); ++i) measure(0, i, displacement[i]);
-    for (std::size_t i = 0; i < walk.frames(); ++i) alone.alignment_error[i] = scaled(0, displacement[i]);
+  std::vector<std::optional<double>> displacement;
+  for (const Told& frame : told) {
+    const auto& [own, common] = lengths[frame.unit];
+    const bool known = frame.displacement && own > 0;
+    displacement.push_back(known ? std::optional(*frame.displacement * common / own) : std::nullopt);
   }
-  return alone;
+  return displacement;
 }
 
 std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
   std::string csv =
       "frame,time_s,displacement,unit,source,orientation_deg,dx_px,matches,heading_deg,"
       "step_signal,step_threshold,reliable,x_m,y_m,displacement_sigma,vo_displacement,sad_displacement\n";
-  const Alone alone = each_alone(walk, motion);
+  std::vector<Told> by_vo(walk.frames()), by_sad(walk.frames());
+  for (std::size_t i = 0; i < walk.frames(); ++i) {
+    if (walk.track && walk.track->frames[i].valid)
+      by_vo[i] = {walk.track->frames[i].displacement, walk.track->frames[i].segment};
+    if (motion.visual) by_sad[i] = {motion.visual->displacement[i]};
+  }
+  const auto vo_displacement = to_common_unit(by_vo, motion),
+             sad_displacement = to_common_unit(by_sad, motion);
   const vo::PedestrianMotion& gait = *motion.pedestrian;
   const std::vector<double>& signal = vo::values_of(gait.step_signal, gait.signal);
   const std::string_view unit = unit_of(walk, motion);
@@ -101,7 +99,7 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
                        measured(tracked.orientation_deg), measured(tracked.shift_px), tracked.matches,
                        gait.signal.heading_rad[i] * kDegrees, signal[i], gait.detection.delta_dyn_deg[i],
                        gait.signal.reliable[i] ? 1 : 0, pose.x_m, pose.y_m, moved.sigma,
-                       measured(alone.visual_odometry[i]), measured(alone.alignment_error[i]));
+                       measured(vo_displacement[i]), measured(sad_displacement[i]));
   }
   return csv;
 }

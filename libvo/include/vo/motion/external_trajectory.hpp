@@ -25,8 +25,8 @@ struct ExternalTrajectoryOptions {
 /// frame.
 ///
 /// `time_s`: of the frames, since the first, strictly increasing. Throws `vo::Error` naming the file if a
-/// series without times has another number of poses, or if no frame has a pose, or none a displacement;
-/// `std::invalid_argument` for options out of range. O(frames log poses).
+/// series without times has another number of poses, if no frame has a pose, or if none has a displacement
+/// though gaps are allowed; `std::invalid_argument` for options out of range. O(frames log poses).
 DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const double> time_s,
                                       const ExternalTrajectoryOptions& options = {});
 
