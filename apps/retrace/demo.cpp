@@ -142,7 +142,7 @@ std::vector<std::uint8_t> overview(const DrawnWalk& day, const DrawnWalk& night,
   return overview_picture({{view_at(day, place_m), "by day, slow, then fast"},
                            {view_at(night, place_m), "the same place by night, fast, then slow"}},
                           {matrix(vanilla, fmt::format("every {}th frame", vanilla.every)),
-                           matrix(normalised, "speed-normalised")});
+                           matrix(normalised, "speed-normalised by steps")});
 }
 
 ordered_json as_json(const Run& run) {
@@ -183,12 +183,16 @@ void demo(const DemoOptions& options) {
   by_night.lateral_m = 0.25;
   simulate::validate(by_night);
 
+  Settings by_steps = options.settings;
+  by_steps.sampling.sampling.motion = vo::MotionSource::kSteps;
+  follow_motion(by_steps);
+
   const fs::path folder = options.output;
   prepare_run_directory(folder, {"day", "night", "route.db", "vanilla", "normalised", "overview.png"},
                         options.common.force);
-  const DrawnWalk day = draw_and_read(by_day, folder / "day", options.settings);
-  const DrawnWalk night = draw_and_read(by_night, folder / "night", options.settings);
-  const Run normalised = find(day, night, options.settings, folder / "route.db", folder / "normalised");
+  const DrawnWalk day = draw_and_read(by_day, folder / "day", by_steps);
+  const DrawnWalk night = draw_and_read(by_night, folder / "night", by_steps);
+  const Run normalised = find(day, night, by_steps, folder / "route.db", folder / "normalised");
   fs::create_directories(folder / "vanilla");
   const Run vanilla = find(day, night, vanilla_like(normalised, day, night, options.settings),
                            folder / "vanilla" / "route.db", folder / "vanilla");
@@ -215,7 +219,7 @@ void demo(const DemoOptions& options) {
   fmt::print("  {:<28}{:>11}{:>8}{:>11}{:>9}{:>14}{:>14}\n", "", "keyframes", "max-F1", "precision", "recall",
              "median error", "95 % within");
   print_row(fmt::format("vanilla, every {}th frame", vanilla.every), vanilla);
-  print_row("speed-normalised", normalised);
+  print_row("speed-normalised by steps", normalised);
   fmt::print("\nRight is within {:g} m of the true place. Drawn and found in {:.0f} s.\n", kTolerance_m,
              took_s);
   fmt::print("Look at {} and {}.\n", (folder / "overview.png").string(),
@@ -237,7 +241,7 @@ Command add_demo(CLI::App& root) {
   add_json_option(*app, options->common);
   app->footer(
       "The same by hand, with --keep-videos:\n"
-      "  retrace build demo/day/walk.mp4 -o again.db --truth demo/day/truth.csv\n"
+      "  retrace build demo/day/walk.mp4 -o again.db --motion steps --truth demo/day/truth.csv\n"
       "  retrace localise demo/night/walk.mp4 --route again.db -o again\n"
       "  retrace evaluate again --query-truth demo/night/truth.csv --reference-truth demo/day/truth.csv \\\n"
       "    --tolerance-m 4");

@@ -134,6 +134,16 @@ class CliTest(unittest.TestCase):
         self.assertEqual(metrics["with_truth"], inside)
         self.assertLess(metrics["accepted"]["precision"], 0.6)
 
+    def test_the_demo_shows_that_speed_does_not_matter(self):
+        demo = self.folder / "demo"
+        result = json.loads(check("demo", "-o", demo, "--length-m", "25", "--json"))
+        self.assertGreater(result["normalised"]["max_f1"], result["vanilla"]["max_f1"] + 0.2)
+        self.assertLess(result["normalised"]["median_error_m"], 1)
+        for name in ("overview.png", "route.db", "day/truth.csv", "normalised/report.html", "vanilla/matches.csv"):
+            self.assertGreater((demo / name).stat().st_size, 0, name)
+        self.assertFalse((demo / "day" / "walk.mp4").exists())
+        self.refused("demo", "-o", demo, says="--force")
+
     def test_turns_a_walk_into_steps_and_a_trajectory(self):
         check("simulate", "--scene", "street", "--length-m", "15", "--seed", "3", "-o", self.folder / "walk")
         truth = rows(self.folder / "walk" / "truth.csv")

@@ -52,7 +52,9 @@ std::vector<std::uint8_t> overview_picture(const std::vector<OverviewTile>& view
   for (const OverviewTile& view : views) small.push_back({fitted(view.picture), view.title});
   int bottom = put_row(page, small, kMargin_px / 2);
   bottom = put_row(page, matrices, bottom + kMargin_px / 2);
-  write(page, "Across: where on the night walk. Up: where on the day walk. Dark: alike. Orange: found.",
+  write(page,
+        "Across: where on the night walk. Up: where on the day walk. Dark: alike. Orange: found. Blue: best, "
+        "unsure.",
         {kMargin_px, bottom + kTitle_px - 6}, 0.45);
   std::vector<std::uint8_t> png;
   cv::imencode(".png", page.rowRange(0, bottom + kTitle_px + 4), png, {cv::IMWRITE_PNG_COMPRESSION, 9});
