@@ -19,6 +19,10 @@ struct Moments {
   double sum = 0;
   double square = 0;
 
+  void add(const Moments& more) {
+    sum += more.sum;
+    square += more.square;
+  }
   void add(double value) {
     sum += value;
     square += value * value;
@@ -51,11 +55,17 @@ Moments moments_of(std::span<const float> values) {
   return {std::accumulate(sum.begin(), sum.end(), 0.0), std::accumulate(square.begin(), square.end(), 0.0)};
 }
 
+/// A row that begins at a multiple of kAlign. Running sums begin anew at every such multiple, so
+/// that a value does not depend on where the row begins.
 void enhance_locally(std::span<float> row, std::size_t half) {
   const std::vector<float> raw(row.begin(), row.end());
   Moments window;
   std::size_t first = 0, last = 0;  // the window is [first, last)
   for (std::size_t r = 0; r < raw.size(); ++r) {
+    if (r % ContrastEnhancer::kAlign == 0) {
+      window = {};
+      first = last = r - std::min(r, half);
+    }
     while (last < std::min(raw.size(), r + half + 1)) window.add(raw[last++]);
     while (first + half < r) window.remove(raw[first++]);
     const auto count = static_cast<double>(last - first);
@@ -67,14 +77,6 @@ float standard_score(float value, double mean, double inverse_deviation) {
   return static_cast<float>((value - mean) * inverse_deviation);
 }
 
-/// Calls `body(begin, count)` for stretches of the references, in parallel: whole cache lines of every row.
-template <typename Body>
-void for_each_stretch(std::size_t references, const Body& body) {
-  constexpr std::size_t kStretch = 512;
-  vo::parallel_for((references + kStretch - 1) / kStretch,
-                   [&](std::size_t i) { body(i * kStretch, std::min(kStretch, references - i * kStretch)); });
-}
-
 }  // namespace
 
 ContrastEnhancer::ContrastEnhancer(std::size_t queries, std::size_t references,
@@ -82,89 +84,88 @@ ContrastEnhancer::ContrastEnhancer(std::size_t queries, std::size_t references,
     : queries_(queries), references_(references), options_(options) {
   if (options.window < 2) throw std::invalid_argument("enhance_contrast: window must be >= 2");
   if (options.method != Enhancement::kStandardise) return;
-  for (Standard* standard : {&query_, &reference_}) {
-    standard->mean.resize(standard == &query_ ? queries : references);
-    standard->inverse_deviation.resize(standard->mean.size());
-  }
+  mean_.resize(queries);
+  inverse_deviation_.resize(queries);
 }
 
-void ContrastEnhancer::survey(std::span<const float> rows) {
-  const std::size_t count = references_ == 0 ? 0 : rows.size() / references_, first = surveyed_;
-  if (count * references_ != rows.size() || count > queries_ - first) {
-    throw std::invalid_argument("ContrastEnhancer: whole rows, as many as there are queries, expected");
+std::size_t ContrastEnhancer::margin() const {
+  if (options_.method != Enhancement::kLocal) return 0;
+  return (static_cast<std::size_t>(options_.window / 2) + kAlign - 1) / kAlign * kAlign;
+}
+
+void ContrastEnhancer::survey(const ConstCosts& costs, std::size_t count) {
+  const std::size_t first = surveyed_, past = first + count;
+  if (past > references_ || (past < references_ && count % kPart != 0) || costs.queries != queries_ ||
+      costs.first_reference + std::min(first, margin()) != first ||
+      costs.first_reference + costs.references != std::min(references_, past + margin())) {
+    throw std::invalid_argument(
+        "ContrastEnhancer: parts of the reference by all queries, in order, expected");
   }
-  surveyed_ += count;
+  surveyed_ = past;
+  const std::size_t before = first - costs.first_reference;
   if (options_.method == Enhancement::kStandardise) {
-    vo::parallel_for(count, [&](std::size_t i) {
-      const Moments moments = moments_of(rows.subspan(i * references_, references_));
-      query_.mean[first + i] = moments.sum / static_cast<double>(references_);
-      query_.inverse_deviation[first + i] = moments.inverse_deviation(static_cast<double>(references_), 0);
+    vo::parallel_for(queries_, [&](std::size_t q) {
+      Moments moments{mean_[q], inverse_deviation_[q]};
+      for (std::size_t r = 0; r < count; r += kPart)
+        moments.add(moments_of(costs.row(q).subspan(r, std::min(kPart, count - r))));
+      mean_[q] = moments.sum;
+      inverse_deviation_[q] = moments.square;
+      if (past < references_) return;
+      mean_[q] = moments.sum / static_cast<double>(references_);
+      inverse_deviation_[q] = moments.inverse_deviation(static_cast<double>(references_), 0);
     });
-    survey_references(first, rows);
-    if (surveyed_ == queries_) finish_survey();
     return;
   }
-  std::vector<CostRange> ranges(count);
-  vo::parallel_for(count, [&](std::size_t i) {
-    const std::span<const float> row = rows.subspan(i * references_, references_);
+  std::vector<CostRange> ranges(queries_);
+  vo::parallel_for(queries_, [&](std::size_t q) {
     if (options_.method == Enhancement::kNone) {
-      ranges[i] = range_of(row);
+      ranges[q] = range_of(costs.row(q).subspan(before, count));
     } else {
-      std::vector<float> enhanced(row.begin(), row.end());
+      std::vector<float> enhanced(costs.row(q).begin(), costs.row(q).end());
       enhance_locally(enhanced, static_cast<std::size_t>(options_.window / 2));
-      ranges[i] = range_of(enhanced);
+      ranges[q] = range_of(std::span(enhanced).subspan(before, count));
     }
   });
   for (const CostRange& range : ranges) {
-    sum_ += range.centre;
+    sum_ += range.centre * static_cast<double>(count);
     least_ = std::min(least_, range.centre - range.largest);
     most_ = std::max(most_, range.centre + range.largest);
   }
 }
 
-void ContrastEnhancer::survey_references(std::size_t first, std::span<const float> rows) {
-  for_each_stretch(references_, [&](std::size_t begin, std::size_t count) {
-    double* sum = reference_.mean.data() + begin;
-    double* square = reference_.inverse_deviation.data() + begin;
-    for (std::size_t i = 0; i * references_ < rows.size(); ++i) {
-      const float* row = rows.data() + i * references_ + begin;
-      const double mean = query_.mean[first + i], inverse = query_.inverse_deviation[first + i];
-      for (std::size_t r = 0; r < count; ++r) {
-        const double score = standard_score(row[r], mean, inverse);
-        sum[r] += score;
-        square[r] += score * score;
-      }
-    }
-  });
-}
-
-void ContrastEnhancer::finish_survey() {
-  const auto count = static_cast<double>(queries_);
-  for (std::size_t r = 0; r < references_; ++r) {
-    const Moments moments{reference_.mean[r], reference_.inverse_deviation[r]};
-    reference_.mean[r] = moments.sum / count;
-    reference_.inverse_deviation[r] = moments.inverse_deviation(count, 0);
+void ContrastEnhancer::enhance(const Costs& costs) const {
+  if (costs.queries != queries_ || costs.first_reference % kAlign != 0 || surveyed_ != references_) {
+    throw std::invalid_argument("ContrastEnhancer: a survey of all, and an aligned part, expected");
   }
-}
-
-void ContrastEnhancer::enhance(std::size_t first, std::span<float> rows) const {
-  if (options_.method == Enhancement::kNone || rows.empty()) return;
-  const std::size_t count = rows.size() / references_;
+  if (options_.method == Enhancement::kNone) return;
   if (options_.method == Enhancement::kLocal) {
-    vo::parallel_for(count, [&](std::size_t i) {
-      enhance_locally(rows.subspan(i * references_, references_),
-                      static_cast<std::size_t>(options_.window / 2));
+    vo::parallel_for(queries_, [&](std::size_t q) {
+      enhance_locally(costs.row(q), static_cast<std::size_t>(options_.window / 2));
     });
     return;
   }
-  for_each_stretch(references_, [&](std::size_t begin, std::size_t stretch) {
-    const double* mean = reference_.mean.data() + begin;
-    const double* inverse = reference_.inverse_deviation.data() + begin;
-    for (std::size_t i = 0; i < count; ++i) {
-      float* row = rows.data() + i * references_ + begin;
-      const double query_mean = query_.mean[first + i], query_inverse = query_.inverse_deviation[first + i];
-      for (std::size_t r = 0; r < stretch; ++r)
-        row[r] = standard_score(standard_score(row[r], query_mean, query_inverse), mean[r], inverse[r]);
+  constexpr std::size_t kStretch = 128;  // references whose costs with some thousand queries fit a cache
+  vo::parallel_for((costs.references + kStretch - 1) / kStretch, [&](std::size_t i) {
+    const std::size_t begin = i * kStretch, count = std::min(kStretch, costs.references - begin);
+    std::array<double, kStretch> mean{}, inverse{};  // first the sums and the sums of squares
+    for (std::size_t q = 0; q < queries_; ++q) {
+      float* row = costs.row(q).data() + begin;
+      for (std::size_t r = 0; r < count; ++r) {
+        row[r] = standard_score(row[r], mean_[q], inverse_deviation_[q]);
+        const double score = row[r];
+        mean[r] += score;
+        inverse[r] += score * score;
+      }
+    }
+    const auto queries = static_cast<double>(queries_);
+    for (std::size_t r = 0; r < count; ++r) {
+      const Moments moments{mean[r], inverse[r]};
+      mean[r] = moments.sum / queries;
+      inverse[r] = moments.inverse_deviation(queries, 0);
+    }
+    for (std::size_t q = 0; q < queries_; ++q) {
+      float* row = costs.row(q).data() + begin;
+      for (std::size_t r = 0; r < count; ++r) row[r] = standard_score(row[r], mean[r], inverse[r]);
     }
   });
 }
@@ -175,15 +176,15 @@ CostRange ContrastEnhancer::range() const {
     // No value of n can be further than sqrt(n - 1) deviations from their mean; one more for rounding.
     return {.centre = 0, .largest = std::sqrt(static_cast<double>(queries_))};
   }
-  const double centre = sum_ / static_cast<double>(queries_);
+  const double centre = sum_ / (static_cast<double>(queries_) * static_cast<double>(references_));
   return {.centre = centre, .largest = std::max(most_ - centre, centre - least_)};
 }
 
 void enhance_contrast(CostMatrix& costs, const ContrastEnhancementOptions& options) {
   ContrastEnhancer enhancer(costs.queries, costs.references, options);
   if (costs.values.empty()) return;
-  if (options.method == Enhancement::kStandardise) enhancer.survey(costs.values);
-  enhancer.enhance(0, costs.values);
+  enhancer.survey(block_of(costs), costs.references);
+  enhancer.enhance(block_of(costs));
 }
 
 }  // namespace place

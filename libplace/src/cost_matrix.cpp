@@ -77,8 +77,8 @@ CostRange range_of(std::span<const float> costs) {
                               centre - static_cast<double>(*std::ranges::min_element(least)))};
 }
 
-CostRows::CostRows(const vo::ImageStack& queries, const vo::ImageStack& references,
-                   const CostOptions& options)
+CostSource::CostSource(const vo::ImageStack& queries, const vo::ImageStack& references,
+                       const CostOptions& options)
     : queries_(queries.size()), whole_(&queries), whole_references_(&references) {
   if (queries.width != references.width || queries.height != references.height) {
     throw std::invalid_argument("cost_matrix: query and reference descriptors differ in size");
@@ -94,29 +94,35 @@ CostRows::CostRows(const vo::ImageStack& queries, const vo::ImageStack& referenc
   shifted_ = columns_of(queries, 0, width, 2 * shift + 1);
 }
 
-void CostRows::compute(std::size_t first, std::size_t count, std::span<float> rows) const {
-  if (count == 0 || references() == 0) return;
+float CostSource::unit() const {
+  return 1.0F /
+         (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(reference_images().image_size()));
+}
+
+void CostSource::compute(const Costs& block) const {
+  if (block.queries == 0 || block.references == 0) return;
   const std::size_t pixels = reference_images().image_size();
-  const float scale = 1.0F / (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(pixels));
   const kernels::AbsoluteDifferenceKernel kernel = kernels::absolute_difference();
-  const std::uint8_t* query_bytes = query_images().pixels.data();
-  const std::uint8_t* reference_bytes = reference_images().pixels.data();
+  const float scale = unit();
+  const std::uint8_t* query_bytes = query_images().pixels.data() + block.first_query * variants_ * pixels;
+  const std::uint8_t* reference_bytes = reference_images().pixels.data() + block.first_reference * pixels;
   // Bands of about one size, a multiple of what kernels take together.
   constexpr std::size_t kTogether = 12;
-  const std::size_t bands = blocks_of(band_queries(variants_ * pixels), count);
-  const std::size_t band = blocks_of(kTogether, blocks_of(bands, count)) * kTogether;
-  const std::size_t columns = blocks_of(kBlockReferences, references());
-  vo::parallel_for(blocks_of(band, count) * columns, [&](std::size_t tile) {
+  const std::size_t bands = blocks_of(band_queries(variants_ * pixels), block.queries);
+  const std::size_t band = blocks_of(kTogether, blocks_of(bands, block.queries)) * kTogether;
+  const std::size_t columns = blocks_of(kBlockReferences, block.references);
+  vo::parallel_for(blocks_of(band, block.queries) * columns, [&](std::size_t tile) {
     const std::size_t q = tile / columns * band, r = tile % columns * kBlockReferences;
-    const std::size_t tall = std::min(band, count - q), wide = std::min(kBlockReferences, references() - r);
-    const kernels::ByteImages query{query_bytes + (first + q) * variants_ * pixels, tall * variants_};
+    const std::size_t tall = std::min(band, block.queries - q),
+                      wide = std::min(kBlockReferences, block.references - r);
+    const kernels::ByteImages query{query_bytes + q * variants_ * pixels, tall * variants_};
     const kernels::ByteImages reference{reference_bytes + r * pixels, wide};
-    float* const out = rows.data() + q * references() + r;
-    if (variants_ == 1) return kernel(query, reference, pixels, {scale, out, references()});
+    float* const out = block.values + q * block.stride + r;
+    if (variants_ == 1) return kernel(query, reference, pixels, {scale, out, block.stride});
     std::vector<float> costs(tall * variants_ * wide);
     kernel(query, reference, pixels, {scale, costs.data(), wide});
     for (std::size_t i = 0; i < tall; ++i) {
-      float* const least = out + i * references();
+      float* const least = out + i * block.stride;
       const float* variant = costs.data() + i * variants_ * wide;
       std::copy_n(variant, wide, least);
       for (std::size_t v = 1; v < variants_; ++v) {
@@ -129,9 +135,9 @@ void CostRows::compute(std::size_t first, std::size_t count, std::span<float> ro
 
 CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
                        const CostOptions& options) {
-  const CostRows rows(queries, references, options);
-  CostMatrix matrix = make_cost_matrix(rows.queries(), rows.references());
-  rows.compute(0, matrix.queries, matrix.values);
+  const CostSource costs(queries, references, options);
+  CostMatrix matrix = make_cost_matrix(costs.queries(), costs.references());
+  costs.compute(block_of(matrix));
   return matrix;
 }
 

@@ -47,20 +47,18 @@ struct Candidate {
   bool partial = false;
 };
 
-/// Puts rows of a matrix into one of which every cell is the least of `shrink` by `shrink`; a row's values
-/// are those of the references `columns`.
-void shrink_rows(std::size_t first, std::span<const float> rows, const std::vector<std::size_t>& columns,
-                 std::size_t shrink, CostMatrix& shrunk) {
-  const std::size_t width = columns.size(), count = rows.size() / width;
-  vo::parallel_for((first + count - 1) / shrink - first / shrink + 1, [&](std::size_t i) {
-    const std::size_t cell_row = first / shrink + i;
+/// Puts a part of a matrix into one of which every cell is the least of `shrink` by `shrink`; its columns are
+/// those of the references `columns`.
+void shrink_part(const ConstCosts& part, const std::vector<std::size_t>& columns, std::size_t shrink,
+                 CostMatrix& shrunk) {
+  vo::parallel_for(shrunk.queries, [&](std::size_t cell_row) {
     const std::span<float> cells = shrunk.row(cell_row);
-    for (std::size_t q = std::max(first, cell_row * shrink);
-         q < std::min(first + count, (cell_row + 1) * shrink); ++q) {
-      const float* row = rows.data() + (q - first) * width;
-      for (std::size_t j = 0; j < width; ++j) {
-        float& cell = cells[shrink == 1 ? columns[j] : columns[j] / shrink];
-        cell = std::min(cell, row[j]);
+    for (std::size_t q = cell_row * shrink; q < std::min(part.queries, (cell_row + 1) * shrink); ++q) {
+      const std::span<const float> row = part.row(q);
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const std::size_t column = columns[part.first_reference + i];
+        float& cell = cells[shrink == 1 ? column : column / shrink];
+        cell = std::min(cell, row[i]);
       }
     }
   });
@@ -103,10 +101,10 @@ std::vector<Candidate> search_our_way(const vo::ImageStack& query_thumbnails,
   StreamedSearchOptions streamed{
       .cost = options.cost, .enhancement = options.enhancement, .search = options.search};
   streamed.search.length = length;
-  const auto keep = [&](const MatrixRows& rows) {
-    shrink_rows(rows.first, rows.cost, columns, matrices.shrink, matrices.cost);
-    shrink_rows(rows.first, rows.enhanced, columns, matrices.shrink, matrices.enhanced);
+  const auto keep_in = [&](CostMatrix& matrix) {
+    return [&](const ConstCosts& part) { shrink_part(part, columns, matrices.shrink, matrix); };
   };
+  const MatrixCallbacks keep{keep_in(matrices.cost), keep_in(matrices.enhanced)};
   std::vector<Candidate> found;
   for (const SequenceMatch& match : search_streamed(query, reference, streamed, keep)) {  // SSS 3.4
     found.push_back({match.reference ? std::optional(columns[*match.reference]) : std::nullopt, match.score,

@@ -55,14 +55,15 @@ SearchStretch::SearchStretch(const SearchPlan& plan, std::size_t begin, std::siz
   if (plan_.queries > 0) weigh_edges(plan_.queries / 2);
 }
 
-void SearchStretch::add_row(std::size_t query, const float* costs) {
+void SearchStretch::add_row(std::size_t query, std::size_t first, std::span<const float> costs) {
   const std::size_t slot = query % depth_, slot_before = (query + depth_ - 1) % depth_;
-  const auto first = static_cast<std::ptrdiff_t>(begin_) - static_cast<std::ptrdiff_t>(before_);
-  // Columns [inside, past) are references; the others have no cost.
-  const std::size_t past =
-      std::min(columns_, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(plan_.references) - first));
-  const std::size_t inside =
-      std::min(past, std::max(kLead, static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -first))));
+  // Columns [inside, past) have costs. Of the others only differences are taken that are 0.
+  const auto column = [&](std::size_t reference) {
+    const auto at = static_cast<std::ptrdiff_t>(reference + before_) - static_cast<std::ptrdiff_t>(begin_);
+    return static_cast<std::size_t>(
+        std::clamp(at, static_cast<std::ptrdiff_t>(kLead), static_cast<std::ptrdiff_t>(columns_)));
+  };
+  const std::size_t inside = column(first), past = column(first + costs.size());
   for (std::size_t ring = 0; ring < plan_.runs.steps.size(); ++ring) {
     const auto step = static_cast<std::size_t>(plan_.runs.steps[ring]);
     const std::uint32_t* before = row(ring, slot_before) - step;
@@ -70,13 +71,10 @@ void SearchStretch::add_row(std::size_t query, const float* costs) {
     const auto carry = [&](std::size_t from, std::size_t to) {
       for (std::size_t c = from; c < to; ++c) out[c] = before[c];
     };
-    if (costs == nullptr) {
-      carry(kLead, columns_);
-      continue;
-    }
     carry(kLead, inside);
-    kernels_.accumulate({costs + (first + static_cast<std::ptrdiff_t>(inside)), plan_.centre, plan_.scale,
-                         before + inside, out + inside, past - inside});
+    if (inside < past)
+      kernels_.accumulate({costs.data() + (inside + begin_ - before_ - first), plan_.centre, plan_.scale,
+                           before + inside, out + inside, past - inside});
     carry(past, columns_);
   }
 }
@@ -91,13 +89,13 @@ StretchBest SearchStretch::search(std::size_t query, float* costs, float* chunk_
   StretchBest best;
   auto edge = edges_.begin();
   for (std::size_t chunk = 0; chunk < chunks_of(width_); ++chunk) {
-    float* out = costs + begin_ + chunk * kChunk;
+    float* out = costs + chunk * kChunk;
     const Edge* weights = edge != edges_.end() && edge->chunk == chunk ? &*edge++ : nullptr;
     const float least = weights != nullptr
                             ? kernels_.least_weighted(sums, chunk * kChunk, weights->factors.data(),
                                                       weights->terms.data(), out)
                             : kernels_.least(sums, chunk * kChunk, factor, out);
-    chunk_least[begin_ / kChunk + chunk] = least;
+    chunk_least[chunk] = least;
     if (!(least < best.cost)) continue;
     best.cost = least;
     best.reference =

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 /// What `SequenceSearcher` works on at a time: a stretch of the reference.
@@ -67,11 +68,15 @@ class SearchStretch {
   /// References [begin, begin + width) of those of `plan`, which is kept by reference.
   SearchStretch(const SearchPlan& plan, std::size_t begin, std::size_t width);
 
-  /// Takes in a row of the matrix, or one past its end where `costs` is null.
-  void add_row(std::size_t query, const float* costs);
+  /// Takes in a row of the matrix, from reference `first` on, with all that lines reach; or one past the last
+  /// query's where there are no costs.
+  void add_row(std::size_t query, std::size_t first, std::span<const float> costs);
 
-  /// Finds the best lines of a query, all of whose rows are there.
+  /// Finds the best lines of a query, all of whose rows are there. `costs` and `chunk_least`: of the
+  /// stretch's references, a multiple of kChunk, and of its chunks.
   StretchBest search(std::size_t query, float* costs, float* chunk_least);
+
+  [[nodiscard]] std::size_t begin() const { return begin_; }
 
  private:
   static constexpr std::size_t kLead = 4;  // columns of 0 that a running sum may begin from; the largest step

@@ -1,5 +1,6 @@
 #include "place/streamed_search.hpp"
 
+#include "cost_cache.hpp"
 #include "place/sequence_searcher.hpp"
 
 #include <algorithm>
@@ -9,49 +10,67 @@
 namespace place {
 namespace {
 
-constexpr std::size_t kRows = 96;  // of a block: those that the cost kernels take together
+constexpr std::size_t round_up(std::size_t value, std::size_t step) {
+  return (value + step - 1) / step * step;
+}
 
-/// Calls `body(first, count)` for blocks of the queries in order.
-template <typename Body>
-void for_each_block(std::size_t queries, const Body& body) {
-  for (std::size_t first = 0; first < queries; first += kRows) body(first, std::min(kRows, queries - first));
+/// References of a part: so many that all queries' costs fit a cache, and no fewer than the search asks for.
+std::size_t part_width(std::size_t queries, const SequenceSearchOptions& search) {
+  constexpr std::size_t kBytes = 16 << 20, kStep = ContrastEnhancer::kPart, kMost = 16 * kStep;
+  const std::size_t fitting = kBytes / sizeof(float) / std::max<std::size_t>(1, queries) / kStep * kStep;
+  return std::max({std::clamp(fitting, kStep, kMost),
+                   round_up(static_cast<std::size_t>(search.length), kStep),
+                   round_up(static_cast<std::size_t>(search.uniqueness_window), kStep)});
+}
+
+/// Keyframes that a line strays from its pair.
+std::size_t reach_of(const SequenceSearchOptions& search) {
+  int reach = 0;
+  for (const SearchLine& line : search_lines(search))
+    reach = std::max({reach, -line.offsets.front(), line.offsets.back()});
+  return static_cast<std::size_t>(reach);
 }
 
 }  // namespace
 
 std::vector<SequenceMatch> search_streamed(const vo::ImageStack& queries, const vo::ImageStack& references,
-                                           const StreamedSearchOptions& options, const RowsCallback& rows) {
-  const CostRows costs(queries, references, options.cost);
-  const std::size_t width = costs.references();
-  ContrastEnhancer enhancer(costs.queries(), width, options.enhancement);
-
-  // The first pass: what enhancement must know of all costs. As many rows as may be kept are.
-  const std::size_t whole_blocks =
-      options.kept_bytes / (std::max<std::size_t>(1, width) * sizeof(float) * kRows);
-  const std::size_t kept_rows = std::min(costs.queries(), whole_blocks * kRows);
-  std::vector<float> kept, passing;
-  vo::resize_populated(kept, kept_rows * width);
-  const auto block = [&](std::size_t first, std::size_t count) {
-    if (first < kept_rows) return std::span(kept).subspan(first * width, count * width);
-    passing.resize(kRows * width);
-    return std::span(passing).first(count * width);
+                                           const StreamedSearchOptions& options,
+                                           const MatrixCallbacks& callbacks) {
+  const CostSource source(queries, references, options.cost);
+  const std::size_t width = source.references();
+  ContrastEnhancer enhancer(source.queries(), width, options.enhancement);
+  CostCache cache(source, options.kept_bytes);
+  const std::size_t part = part_width(source.queries(), options.search);
+  const std::size_t reach = round_up(reach_of(options.search), ContrastEnhancer::kAlign);
+  const auto values =
+      vo::make_populated<float>(source.queries() * std::min(width, part + 2 * (reach + enhancer.margin())));
+  const auto with_margin = [&](std::size_t first, std::size_t count, std::size_t margin) {
+    const std::size_t begin = first - std::min(first, margin),
+                      stride = std::min(width, first + count + margin) - begin;
+    return Costs{0, source.queries(), begin, stride, values.get(), stride};
   };
-  for_each_block(costs.queries(), [&](std::size_t first, std::size_t count) {
-    const std::span<float> values = block(first, count);
-    costs.compute(first, count, values);
-    enhancer.survey(values);
+  const auto for_each_part = [&](const auto& body) {
+    for (std::size_t first = 0; first < width; first += part) body(first, std::min(part, width - first));
+  };
+
+  // The first pass: what enhancement must know of all costs.
+  for_each_part([&](std::size_t first, std::size_t count) {
+    const Costs costs = with_margin(first, count, enhancer.margin());
+    source.compute(costs);
+    cache.keep(costs.columns(first, count));
+    enhancer.survey(costs, count);
   });
 
   // The second: enhanced, and searched.
-  SequenceSearcher searcher(costs.queries(), width, enhancer.range(), options.search);
-  std::vector<float> raw;
-  for_each_block(costs.queries(), [&](std::size_t first, std::size_t count) {
-    const std::span<float> values = block(first, count);
-    if (first >= kept_rows) costs.compute(first, count, values);
-    if (rows) raw.assign(values.begin(), values.end());
-    enhancer.enhance(first, values);
-    if (rows) rows({.first = first, .cost = raw, .enhanced = values});
-    searcher.push(values);
+  SequenceSearcher searcher(source.queries(), width, enhancer.range(), options.search);
+  for_each_part([&](std::size_t first, std::size_t count) {
+    Costs costs = with_margin(first, count, reach + enhancer.margin());
+    cache.fetch(costs);
+    if (callbacks.cost) callbacks.cost(costs.columns(first, count));
+    enhancer.enhance(costs);
+    if (callbacks.enhanced) callbacks.enhanced(costs.columns(first, count));
+    const std::size_t begin = first - std::min(first, reach), past = std::min(width, first + count + reach);
+    searcher.push(costs.columns(begin, past - begin), count);
   });
   return searcher.finish();
 }

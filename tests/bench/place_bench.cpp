@@ -58,10 +58,10 @@ BENCHMARK(bench::sad_limit)->Name("sad_limit")->Threads(2)->Unit(benchmark::kMil
 void cost_matrix(benchmark::State& state) {
   vo::set_thread_count(static_cast<int>(state.range(2)));
   const Walks walks(state);
-  const place::CostRows rows(walks.query, walks.reference);
+  const place::CostSource source(walks.query, walks.reference);
   place::CostMatrix matrix = place::make_cost_matrix(walks.query.size(), walks.reference.size());
   for (auto _ : state) {
-    rows.compute(0, matrix.queries, matrix.values);
+    source.compute(place::block_of(matrix));
     benchmark::DoNotOptimize(matrix.values.data());
   }
   walks.report(state);

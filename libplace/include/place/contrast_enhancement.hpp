@@ -29,35 +29,39 @@ struct ContrastEnhancementOptions {
 /// references), in parallel; sums in double in a fixed order.
 void enhance_contrast(CostMatrix& costs, const ContrastEnhancementOptions& options = {});
 
-/// The same over rows that come one after another, twice: first all are surveyed, then any are enhanced. The
-/// values are those of the whole matrix, to the bit.
+/// The same over a matrix that comes in parts, twice: first all are surveyed, then any are enhanced. A part
+/// is a stretch of the reference by all queries. The values are those of the whole matrix, to the bit.
 class ContrastEnhancer {
  public:
-  /// Throws `std::invalid_argument` if window < 2. Memory: 16 bytes for each query and 32 for each reference.
+  static constexpr std::size_t kPart = 512;  ///< a surveyed part has a multiple of so many references ...
+  static constexpr std::size_t kAlign = 32;  ///< ... an enhanced one begins at a multiple of so many
+
+  /// Throws `std::invalid_argument` if window < 2. Memory: 16 bytes for each query.
   ContrastEnhancer(std::size_t queries, std::size_t references,
                    const ContrastEnhancementOptions& options = {});
 
-  /// The next whole rows of the matrix, in order; all of them before the first is enhanced.
-  void survey(std::span<const float> rows);
+  /// References on either side of a part that its values need; a multiple of kAlign.
+  [[nodiscard]] std::size_t margin() const;
 
-  /// Enhances whole rows in place, the first of them that of query `first`.
-  void enhance(std::size_t first, std::span<float> rows) const;
+  /// The next `count` references, in order; all of them before the first part is enhanced. `costs` has
+  /// margin() more on either side as far as the reference goes. `count` is a multiple of kPart, but for the
+  /// last. Throws `std::invalid_argument` for costs that are not those.
+  void survey(const ConstCosts& costs, std::size_t count);
+
+  /// Enhances a part in place; its outer margin() references, but at the ends of the reference, are left
+  /// undefined. Throws `std::invalid_argument` unless all queries are there, it begins at a multiple of
+  /// kAlign, and all references were surveyed.
+  void enhance(const Costs& costs) const;
 
   /// Of the enhanced values: their mean, and a bound of how far they lie from it.
   [[nodiscard]] CostRange range() const;
 
  private:
-  /// (value - mean) * inverse, for each query or reference.
-  struct Standard {
-    std::vector<double> mean, inverse_deviation;
-  };
-  void survey_references(std::size_t first, std::span<const float> rows);
-  void finish_survey();
-
   std::size_t queries_, references_;
   ContrastEnhancementOptions options_;
-  std::size_t surveyed_ = 0;
-  Standard query_, reference_;             // while the survey lasts, the reference's sums and sums of squares
+  std::size_t surveyed_ = 0;  // references
+  // Of each query over the references: while the survey lasts, the sum and the sum of squares.
+  std::vector<double> mean_, inverse_deviation_;
   double sum_ = 0, least_ = 0, most_ = 0;  // of what is enhanced, where it is not standardised
 };
 

@@ -26,6 +26,36 @@ struct CostMatrix {
   }
 };
 
+/// A block of a matrix, wherever it lies: queries from `first_query` on by references from `first_reference`
+/// on, rows `stride` values apart.
+template <typename Value>
+struct CostBlock {
+  std::size_t first_query = 0, queries = 0;
+  std::size_t first_reference = 0, references = 0;
+  Value* values = nullptr;
+  std::size_t stride = 0;
+
+  /// The row of the block's `i`-th query.
+  [[nodiscard]] std::span<Value> row(std::size_t i) const { return {values + i * stride, references}; }
+  /// All queries by references [first, first + count), counted as the matrix does.
+  [[nodiscard]] CostBlock columns(std::size_t first, std::size_t count) const {
+    return {first_query, queries, first, count, values + (first - first_reference), stride};
+  }
+  operator CostBlock<const Value>() const {
+    return {first_query, queries, first_reference, references, values, stride};
+  }
+};
+using Costs = CostBlock<float>;
+using ConstCosts = CostBlock<const float>;
+
+/// All of a matrix.
+inline Costs block_of(CostMatrix& matrix) {
+  return {0, matrix.queries, 0, matrix.references, matrix.values.data(), matrix.references};
+}
+inline ConstCosts block_of(const CostMatrix& matrix) {
+  return {0, matrix.queries, 0, matrix.references, matrix.values.data(), matrix.references};
+}
+
 /// A matrix of zeros.
 CostMatrix make_cost_matrix(std::size_t queries, std::size_t references);
 
@@ -47,19 +77,22 @@ struct CostOptions {
   int max_shift_px = 0;
 };
 
-/// The rows of a cost matrix, made as they are asked for.
-class CostRows {
+/// The costs of a matrix, made block by block as they are asked for.
+class CostSource {
  public:
   /// The stacks are bytes of `vo::patch_normalise`, of the same width and height, and must outlive this.
   /// Throws `std::invalid_argument` if the sizes differ or the shift leaves no column. With a shift, copies
   /// the references and 2 * max_shift_px + 1 times the queries.
-  CostRows(const vo::ImageStack& queries, const vo::ImageStack& references, const CostOptions& options = {});
+  CostSource(const vo::ImageStack& queries, const vo::ImageStack& references,
+             const CostOptions& options = {});
 
   [[nodiscard]] std::size_t queries() const { return queries_; }
   [[nodiscard]] std::size_t references() const { return reference_images().size(); }
+  /// Every cost is `float(n) * unit()` of a whole number n.
+  [[nodiscard]] float unit() const;
 
-  /// Writes the rows of `count` queries from `first` on to `rows`, references() values each. In parallel.
-  void compute(std::size_t first, std::size_t count, std::span<float> rows) const;
+  /// Writes the values of a block. In parallel.
+  void compute(const Costs& block) const;
 
  private:
   [[nodiscard]] const vo::ImageStack& query_images() const { return variants_ > 1 ? shifted_ : *whole_; }

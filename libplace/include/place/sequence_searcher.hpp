@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace place {
 
-/// `search_sequences` over rows that come one after another, so that a matrix need never be whole.
+/// `search_sequences` over parts of the reference that come one after another, each with all queries, so that
+/// a matrix need never be whole.
 ///
 /// Costs are rounded to whole multiples of a power of two, the finest at which `length` of the largest still
 /// fit 30 bits: 2^-20 for 2000 queries standardised and sequences of 20. From there on sums are exact. A line
@@ -17,11 +17,13 @@ namespace place {
 /// step, so a cell takes O(runs) of each line: for slopes near a whole number m about 1 + 2 |slope - m| *
 /// length, whatever the length for m itself.
 ///
-/// Memory: 4 bytes for each reference, row of the sequence and step (0 .. 4) that the lines need, and 4 for
-/// each reference and row worked on together (64). Time O(queries * references * runs of all lines), in
-/// parallel over stretches of the reference.
+/// Memory: 4 bytes for each reference of a part, row of the sequence and step (0 .. 4) that the lines need, 4
+/// for each reference of a part and row worked on together (64), and 4 for each query and keyframe of the
+/// uniqueness window. Time O(queries * references * runs of all lines), in parallel over stretches of a part.
 class SequenceSearcher {
  public:
+  static constexpr std::size_t kPart = 32;  ///< a part has a multiple of so many references
+
   /// Throws `std::invalid_argument` for options that are not valid.
   SequenceSearcher(std::size_t queries, std::size_t references, const CostRange& range,
                    const SequenceSearchOptions& options = {});
@@ -29,11 +31,15 @@ class SequenceSearcher {
   SequenceSearcher(SequenceSearcher&&) noexcept;
   SequenceSearcher& operator=(SequenceSearcher&&) noexcept;
 
-  /// The next rows: any number of whole ones. Throws `std::invalid_argument` if they are not whole or too
-  /// many.
-  void push(std::span<const float> rows);
+  /// References on either side of a part that its lines reach.
+  [[nodiscard]] std::size_t margin() const;
 
-  /// One match for each query. Throws `std::invalid_argument` if rows are missing.
+  /// The next `count` references, in order. `costs` has margin() more on either side as far as the reference
+  /// goes; more does no harm. But for the last part, `count` is a multiple of kPart and no less than the
+  /// uniqueness window. Throws `std::invalid_argument` for costs that are not those.
+  void push(const ConstCosts& costs, std::size_t count);
+
+  /// One match for each query. Throws `std::invalid_argument` if references are missing.
   std::vector<SequenceMatch> finish();
 
  private:

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -130,6 +131,77 @@ TEST(EnhanceContrast, OfNothingIsNothing) {
 TEST(EnhanceContrast, NoneLeavesCostsAsTheyAre) {
   const auto costs = random_costs(4, 6, 6);
   EXPECT_EQ(enhanced(costs, Enhancement::kNone).values, costs.values);
+}
+
+/// Columns [first, past) of a matrix in memory of their own.
+struct CutOut {
+  CutOut(const place::CostMatrix& costs, std::size_t first, std::size_t past) : columns(past - first) {
+    for (std::size_t q = 0; q < costs.queries; ++q)
+      values.insert(values.end(), costs.row(q).begin() + static_cast<std::ptrdiff_t>(first),
+                    costs.row(q).begin() + static_cast<std::ptrdiff_t>(past));
+    block = {0, costs.queries, first, columns, values.data(), columns};
+  }
+  std::size_t columns;
+  std::vector<float> values;
+  place::Costs block;
+};
+
+TEST(ContrastEnhancer, GivesTheBitsOfTheWholeMatrixInParts) {
+  constexpr std::size_t kQueries = 6, kReferences = 2 * place::ContrastEnhancer::kPart + 90;
+  for (const auto method : {Enhancement::kNone, Enhancement::kLocal, Enhancement::kStandardise}) {
+    for (const int window : {10, 100}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(method) << ", window " << window);
+      auto costs = random_costs(kQueries, kReferences, 9);
+      for (float& value : costs.values) value = std::exp(20 * value);  // of which running sums are not exact
+      const auto whole = enhanced(costs, method, window);
+      place::ContrastEnhancer enhancer(kQueries, kReferences, {.method = method, .window = window});
+      const std::size_t margin = enhancer.margin();
+      for (std::size_t first = 0; first < kReferences; first += place::ContrastEnhancer::kPart) {
+        const std::size_t count = std::min(place::ContrastEnhancer::kPart, kReferences - first);
+        enhancer.survey(
+            CutOut(costs, first - std::min(first, margin), std::min(kReferences, first + count + margin))
+                .block,
+            count);
+      }
+      // From several aligned beginnings, wherever they end.
+      for (const auto& [first, past] :
+           {std::pair<std::size_t, std::size_t>{0, 333}, {64, 700}, {480, kReferences}}) {
+        CutOut part(costs, first, past);
+        enhancer.enhance(part.block);
+        const std::size_t valid = first == 0 ? 0 : first + margin,
+                          valid_past = past == kReferences ? past : past - margin;
+        for (std::size_t q = 0; q < kQueries; ++q) {
+          const auto own = part.block.columns(valid, valid_past - valid).row(q);
+          EXPECT_TRUE(std::ranges::equal(own, whole.row(q).subspan(valid, valid_past - valid)))
+              << q << " from " << first;
+        }
+      }
+      const place::CostRange range = enhancer.range(), exact = place::range_of(whole.values);
+      EXPECT_NEAR(range.centre, exact.centre, kFloatRounding * std::max(1.0, exact.largest));
+      for (const float value : whole.values)
+        EXPECT_LE(std::abs(value - range.centre), range.largest * (1 + 1e-12));
+    }
+  }
+}
+
+TEST(ContrastEnhancer, WantsPartsInOrderAndAllOfThem) {
+  constexpr std::size_t kPart = place::ContrastEnhancer::kPart;
+  auto costs = random_costs(3, kPart + 40, 10);
+  place::ContrastEnhancer enhancer(3, kPart + 40, {.method = Enhancement::kLocal});
+  const std::size_t margin = enhancer.margin();
+  EXPECT_EQ(margin % place::ContrastEnhancer::kAlign, 0U);
+  const place::Costs all = place::block_of(costs);
+  EXPECT_THROW(enhancer.enhance(all), std::invalid_argument);                               // no survey yet
+  EXPECT_THROW(enhancer.survey(all.columns(0, kPart), kPart), std::invalid_argument);       // no margin
+  EXPECT_THROW(enhancer.survey(all.columns(0, 100 + margin), 100), std::invalid_argument);  // an odd part
+  EXPECT_THROW(enhancer.survey(all.columns(kPart - margin, 40 + margin), 40),
+               std::invalid_argument);  // too soon
+  enhancer.survey(all.columns(0, kPart + margin), kPart);
+  EXPECT_THROW(enhancer.enhance(all), std::invalid_argument);  // half a survey
+  EXPECT_THROW(enhancer.survey(all.columns(kPart - margin, 40 + margin), 41), std::invalid_argument);
+  enhancer.survey(all.columns(kPart - margin, 40 + margin), 40);
+  EXPECT_THROW(enhancer.enhance(all.columns(7, 40)), std::invalid_argument);  // not aligned
+  EXPECT_NO_THROW(enhancer.enhance(all));
 }
 
 TEST(EnhanceContrast, IsTheSameForAnyThreadCount) {

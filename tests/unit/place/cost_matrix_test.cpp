@@ -2,6 +2,7 @@
 #include "support/random_images.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <span>
@@ -153,18 +154,28 @@ TEST(CostMatrix, RefusesAShiftThatLeavesNoColumn) {
   EXPECT_THROW(place::cost_matrix(images, images, {.max_shift_px = -1}), std::invalid_argument);
 }
 
-TEST(CostRows, AreThoseOfTheMatrix) {
+TEST(CostSource, GivesBlocksOfTheMatrix) {
   const auto queries = random_images(8, 4, 23, 1), references = random_images(8, 4, 300, 2);
   for (const int most : {0, 2}) {
     const auto matrix = place::cost_matrix(queries, references, {.max_shift_px = most});
-    const place::CostRows rows(queries, references, {.max_shift_px = most});
-    for (std::size_t first = 0; first < 23; first += 7) {
-      const std::size_t count = std::min<std::size_t>(7, 23 - first);
-      std::vector<float> some(count * 300);
-      rows.compute(first, count, some);
-      for (std::size_t i = 0; i < count; ++i) {
-        EXPECT_TRUE(std::ranges::equal(std::span(some).subspan(i * 300, 300), matrix.row(first + i)));
+    const place::CostSource source(queries, references, {.max_shift_px = most});
+    for (std::size_t q = 0; q < 23; q += 7) {
+      for (std::size_t r = 0; r < 300; r += 130) {
+        const std::size_t tall = std::min<std::size_t>(7, 23 - q), wide = std::min<std::size_t>(130, 300 - r);
+        constexpr std::size_t kStride = 150;
+        constexpr float kUntouched = -1;
+        std::vector<float> some(tall * kStride, kUntouched);
+        const place::Costs block{q, tall, r, wide, some.data(), kStride};
+        source.compute(block);
+        for (std::size_t i = 0; i < tall; ++i) {
+          EXPECT_TRUE(std::ranges::equal(block.row(i), matrix.row(q + i).subspan(r, wide)));
+          EXPECT_THAT(std::span(some).subspan(i * kStride + wide, kStride - wide), testing::Each(kUntouched));
+        }
       }
+    }
+    for (const float cost : matrix.values) {
+      const float units = std::round(cost / source.unit());
+      EXPECT_EQ(units * source.unit(), cost);
     }
   }
 }

@@ -70,14 +70,28 @@ std::vector<SequenceMatch> search_plainly(const place::CostMatrix& costs,
   return matches;
 }
 
-std::vector<SequenceMatch> search_in_pieces(const place::CostMatrix& costs,
-                                            const SequenceSearchOptions& options, std::size_t piece) {
-  place::SequenceSearcher searcher(costs.queries, costs.references, {.centre = 0, .largest = 2}, options);
-  for (std::size_t q = 0; q < costs.queries; q += piece) {
-    const std::size_t count = std::min(piece, costs.queries - q);
-    searcher.push(std::span(costs.values).subspan(q * costs.references, count * costs.references));
+/// In parts of `part` references, each cut out of the matrix with no more than its margins.
+std::vector<SequenceMatch> search_in_parts(const place::CostMatrix& costs,
+                                           const SequenceSearchOptions& options, std::size_t part,
+                                           const place::CostRange& range = {.centre = 0, .largest = 2}) {
+  place::SequenceSearcher searcher(costs.queries, costs.references, range, options);
+  for (std::size_t first = 0; first < costs.references; first += part) {
+    const std::size_t count = std::min(part, costs.references - first),
+                      begin = first - std::min(first, searcher.margin()),
+                      past = std::min(costs.references, first + count + searcher.margin());
+    std::vector<float> values;
+    for (std::size_t q = 0; q < costs.queries; ++q) {
+      const auto row = costs.row(q).subspan(begin, past - begin);
+      values.insert(values.end(), row.begin(), row.end());
+    }
+    searcher.push({0, costs.queries, begin, past - begin, values.data(), past - begin}, count);
   }
   return searcher.finish();
+}
+
+std::vector<SequenceMatch> search_whole(const place::CostMatrix& costs,
+                                        const SequenceSearchOptions& options) {
+  return search_in_parts(costs, options, costs.references);
 }
 
 void expect_same(const std::vector<SequenceMatch>& found, const std::vector<SequenceMatch>& expected,
@@ -116,16 +130,46 @@ TEST(SequenceSearcher, EqualsTheStraightforwardLoop) {
     SCOPED_TRACE(i);
     const auto& [queries, references, options] = cases[i];
     const auto costs = random_costs(queries, references, i);
-    expect_same(search_in_pieces(costs, options, queries), search_plainly(costs, options), kRounding);
+    expect_same(search_whole(costs, options), search_plainly(costs, options), kRounding);
   }
 }
 
-TEST(SequenceSearcher, DoesNotCareHowRowsArrive) {
-  const auto costs = random_costs(200, 330, 1);
-  const SequenceSearchOptions options{.length = 16, .search_range_rad = 0.4};
-  const auto whole = search_in_pieces(costs, options, 200);
-  for (const std::size_t piece : {1, 7, 64, 65})
-    expect_same(search_in_pieces(costs, options, piece), whole, 0);
+TEST(SequenceSearcher, DoesNotCareHowThePartsAreCut) {
+  // Equal costs in several parts too; windows as wide as a part, narrow and none; steep lines that reach far.
+  for (const auto& options :
+       {SequenceSearchOptions{.length = 16, .search_range_rad = 0.4},
+        SequenceSearchOptions{.length = 6, .min_fraction = 0.9, .uniqueness_window = 0},
+        SequenceSearchOptions{.length = 1, .uniqueness_window = 32},
+        SequenceSearchOptions{.length = 9, .v_min = 0.3, .v_max = 6, .uniqueness_window = 25}}) {
+    for (const bool alike : {false, true}) {
+      SCOPED_TRACE(testing::Message() << options.length << (alike ? ", alike" : ""));
+      auto costs = random_costs(90, 330, 1);
+      if (alike)
+        for (float& value : costs.values) value = std::round(value);
+      const auto plain = search_plainly(costs, options), whole = search_whole(costs, options);
+      if (!alike) expect_same(whole, plain, 2e-6);
+      for (const std::size_t part : {32, 64, 192, 320})
+        expect_same(search_in_parts(costs, options, part), whole, 0);
+    }
+  }
+}
+
+TEST(SequenceSearcher, ScoresAgainstAllThatIsOutsideTheWindow) {
+  // Single costs: the best at 100, its rival at some other place, within reach of the window or not, in an
+  // earlier part, the same or a later one.
+  constexpr std::size_t kReferences = 256, kBest = 100;
+  for (const std::size_t rival : {3, 63, 64, 89, 90, 99, 101, 110, 111, 127, 128, 129, 200, 255}) {
+    place::CostMatrix costs = place::make_cost_matrix(1, kReferences);
+    std::ranges::fill(costs.values, 1.0F);
+    costs.values[kBest] = -2;
+    costs.values[rival] = -1;
+    const bool outside = rival + 10 < kBest || rival > kBest + 10;
+    for (const std::size_t part : {32, 64, 128, 256}) {
+      const auto found = search_in_parts(costs, {.length = 1, .uniqueness_window = 10}, part);
+      EXPECT_EQ(found[0].reference, kBest);
+      EXPECT_EQ(found[0].score, outside ? 1 : 3) << rival << " in parts of " << part;
+    }
+  }
 }
 
 TEST(SequenceSearcher, RoundsAsStated) {
@@ -134,41 +178,49 @@ TEST(SequenceSearcher, RoundsAsStated) {
   vo::Rng rng(3);
   for (float& value : costs.values) value = static_cast<float>(rng.normal());
   const SequenceSearchOptions options{.length = 20};
-  place::SequenceSearcher searcher(100, 300, {.centre = 0, .largest = 10}, options);
-  searcher.push(costs.values);
-  const auto found = searcher.finish(), plain = search_plainly(costs, options);
+  const auto found = search_in_parts(costs, options, 64, {.centre = 0, .largest = 10});
   // 10 * 20 fit 30 bits at 2^-22, so a term is off by 2^-23 and so is the mean of 20, plus a float's
   // rounding; a score is the difference of two.
-  expect_same(found, plain, 2 * (std::exp2(-23) + 2e-7));
+  expect_same(found, search_plainly(costs, options), 2 * (std::exp2(-23) + 2e-7));
 }
 
 TEST(SequenceSearcher, OfNothingFindsNothing) {
   for (const auto& [queries, references] : {std::pair{0, 5}, {5, 0}, {0, 0}}) {
     place::SequenceSearcher searcher(static_cast<std::size_t>(queries), static_cast<std::size_t>(references),
                                      {});
-    searcher.push({});
     const auto matches = searcher.finish();
     ASSERT_EQ(matches.size(), static_cast<std::size_t>(queries));
     for (const auto& match : matches) EXPECT_FALSE(match.reference);
   }
 }
 
-TEST(SequenceSearcher, WantsWholeRowsAndAllOfThem) {
-  const std::vector<float> values(12);
-  place::SequenceSearcher searcher(3, 4, {});
-  EXPECT_THROW(searcher.push(std::span(values).first(5)), std::invalid_argument);
-  searcher.push(std::span(values).first(8));
+TEST(SequenceSearcher, WantsPartsInOrderAndAllOfThem) {
+  const auto matrix = random_costs(30, 100, 5);
+  const place::ConstCosts all = place::block_of(matrix);
+  place::SequenceSearcher searcher(30, 100, {.centre = 0, .largest = 2}, {.uniqueness_window = 40});
+  const std::size_t margin = searcher.margin();
+  ASSERT_GT(margin, 0U);
+  EXPECT_THROW(searcher.push(all.columns(0, 64), 64), std::invalid_argument);  // no margin
+  EXPECT_THROW(searcher.push(all, 63), std::invalid_argument);                 // an odd part
+  EXPECT_THROW(searcher.push(all, 32), std::invalid_argument);                 // less than the window
+  EXPECT_THROW(searcher.push(all.columns(64 - margin, 36 + margin), 36), std::invalid_argument);  // too soon
   EXPECT_THROW(searcher.finish(), std::invalid_argument);
-  EXPECT_THROW(searcher.push(std::span(values).first(8)), std::invalid_argument);
+  searcher.push(all.columns(0, 64 + margin), 64);
+  EXPECT_THROW(searcher.finish(), std::invalid_argument);
+  EXPECT_THROW(searcher.push(all, 37), std::invalid_argument);  // more than there are
+  EXPECT_THROW(searcher.push({0, 29, 0, 100, all.values, 100}, 36),
+               std::invalid_argument);  // not all queries
+  searcher.push(all.columns(64 - margin, 36 + margin), 36);
+  EXPECT_EQ(searcher.finish().size(), 30U);
   EXPECT_THROW(place::SequenceSearcher(3, 4, {}, {.length = 0}), std::invalid_argument);
 }
 
 TEST(SequenceSearcher, IsTheSameForAnyThreadCount) {
   const auto costs = random_costs(80, 2500, 4);
   vo::set_thread_count(1);
-  const auto one = search_in_pieces(costs, {}, 80);
+  const auto one = search_in_parts(costs, {}, 512);
   vo::set_thread_count(4);
-  expect_same(search_in_pieces(costs, {}, 80), one, 0);
+  expect_same(search_in_parts(costs, {}, 512), one, 0);
   vo::set_thread_count(0);
 }
 

@@ -1,5 +1,6 @@
 #include "support/random_images.hpp"
 
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -29,8 +30,9 @@ struct Walks {
 };
 
 TEST(SearchStreamed, IsTheThreeStagesOneAfterTheOther) {
-  // More queries than a block has, whether all of their costs are kept, some or none.
-  const Walks walks(230, 400, 100);
+  // More references than a part has, whether all of their costs are kept, some or none.
+  static constexpr std::size_t kQueries = 130, kReferences = 8192 + 300;
+  const Walks walks(kQueries, kReferences, 8100);
   for (const Enhancement method : kMethods) {
     for (const int shift : {0, 1}) {
       place::StreamedSearchOptions options{.cost = {.max_shift_px = shift},
@@ -39,31 +41,54 @@ TEST(SearchStreamed, IsTheThreeStagesOneAfterTheOther) {
       const auto raw = matrix;
       place::enhance_contrast(matrix, options.enhancement);
       const auto expected = place::search_sequences(matrix, options.search);
-      for (const std::size_t kept_rows : {0, 100, 1000}) {
+      for (const std::size_t kept :
+           {std::size_t{0}, kQueries * 500 * sizeof(std::uint16_t), std::size_t{1} << 30U}) {
         SCOPED_TRACE(testing::Message()
-                     << static_cast<int>(method) << ", shift " << shift << ", kept " << kept_rows);
-        options.kept_bytes = kept_rows * 400 * sizeof(float);
-        std::size_t next = 0;
-        const auto found =
-            place::search_streamed(walks.query, walks.reference, options, [&](const place::MatrixRows& rows) {
-              ASSERT_EQ(rows.first, next);
-              for (std::size_t i = 0; i < rows.cost.size() / 400; ++i, ++next) {
-                ASSERT_TRUE(std::ranges::equal(rows.cost.subspan(i * 400, 400), raw.row(next)));
-                ASSERT_TRUE(std::ranges::equal(rows.enhanced.subspan(i * 400, 400), matrix.row(next)));
-              }
-            });
-        EXPECT_EQ(next, 230U);
+                     << static_cast<int>(method) << ", shift " << shift << ", kept " << kept);
+        options.kept_bytes = kept;
+        std::size_t costs_seen = 0, enhanced_seen = 0;
+        const auto sees = [](const place::CostMatrix& whole, std::size_t& next) {
+          return [&whole, &next](const place::ConstCosts& part) {
+            ASSERT_EQ(part.first_reference, next);
+            ASSERT_EQ(part.queries, kQueries);
+            for (std::size_t q = 0; q < kQueries; ++q)
+              ASSERT_TRUE(std::ranges::equal(part.row(q), whole.row(q).subspan(next, part.references)));
+            next += part.references;
+          };
+        };
+        const auto found = place::search_streamed(walks.query, walks.reference, options,
+                                                  {sees(raw, costs_seen), sees(matrix, enhanced_seen)});
+        EXPECT_EQ(costs_seen, kReferences);
+        EXPECT_EQ(enhanced_seen, kReferences);
         ASSERT_EQ(found.size(), expected.size());
         for (std::size_t q = 0; q < found.size(); ++q) {
           EXPECT_EQ(found[q].reference, expected[q].reference) << q;
-          // The searcher rounds costs of up to 15 deviations in tens at 2^-22.
+          // The searcher rounds costs of up to 12 deviations in tens at 2^-22.
           EXPECT_NEAR(found[q].cost, expected[q].cost, 1e-6) << q;
           EXPECT_NEAR(found[q].score, expected[q].score, 2e-6) << q;
           EXPECT_EQ(found[q].terms, expected[q].terms) << q;
         }
-        EXPECT_EQ(found[115].reference, 215U);  // and it is the right place
+        EXPECT_EQ(found[115].reference, 8215U);  // and it is the right place
       }
     }
+  }
+}
+
+TEST(SearchStreamed, GivesLinesAllThatTheyReach) {
+  // Lines that reach just as far as a part's margins are aligned, and a little further.
+  const Walks walks(130, 8192 + 300, 8150);
+  for (const int length : {64, 66}) {
+    const place::StreamedSearchOptions options{.enhancement = {.method = Enhancement::kLocal},
+                                               .search = {.length = length, .search_range_rad = 0}};
+    auto matrix = place::cost_matrix(walks.query, walks.reference);
+    place::enhance_contrast(matrix, options.enhancement);
+    const auto expected = place::search_sequences(matrix, options.search);
+    const auto found = place::search_streamed(walks.query, walks.reference, options);
+    for (std::size_t q = 0; q < found.size(); ++q) {
+      EXPECT_EQ(found[q].reference, expected[q].reference) << q;
+      EXPECT_NEAR(found[q].cost, expected[q].cost, 1e-6) << q;
+    }
+    EXPECT_EQ(found[42].reference, 8192U);
   }
 }
 
