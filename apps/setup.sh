@@ -7,7 +7,7 @@ packages=(cmake g++ ninja-build libopencv-dev libavformat-dev libswscale-dev lib
   libspdlog-dev libfmt-dev libtbb-dev libflann-dev liblz4-dev libjs-chart.js)
 if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev libfaiss-dev clang-format python3 ffmpeg bc
-    chromium chromium-driver python3-selenium)
+    chromium chromium-driver python3-selenium g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static)
 fi
 
 missing=()

@@ -19,7 +19,10 @@ struct Neon {
     const auto first = static_cast<std::uint8_t>(kBytes - count);
     return vandq_u8(load(end - kBytes), vcgeq_u8(vld1q_u8(kPlaces), vdupq_n_u8(first)));
   }
-  static void keep_in_register(Bytes& bytes) { asm("" : "+w"(bytes)); }
+  template <typename Register>
+  static void keep_in_register(Register& values) {
+    asm("" : "+w"(values));
+  }
   static Sums zero() { return vdupq_n_u32(0); }
   static Sums add(Sums sums, Bytes a, Bytes b) { return vpadalq_u16(sums, vpaddlq_u8(vabdq_u8(a, b))); }
   static std::int32_t total(Sums sums) { return static_cast<std::int32_t>(vaddvq_u32(sums)); }
