@@ -202,21 +202,31 @@ BENCHMARK_CAPTURE(enhance, standardise, place::Enhancement::kStandardise)->Unit(
 
 /// All of it, descriptors to matches, one thread. Arguments: queries, references, sequence length. The large
 /// ones take a minute and more, so they are apart; what counts is the time of a cell.
-void search_streamed(benchmark::State& state) {
+void search_streamed(benchmark::State& state, std::size_t kept_bytes) {
   vo::set_thread_count(1);
   const Walks walks(state);
-  const place::StreamedSearchOptions options{.search = {.length = static_cast<int>(state.range(2))}};
+  const place::StreamedSearchOptions options{.search = {.length = static_cast<int>(state.range(2))},
+                                             .kept_bytes = kept_bytes};
   for (auto _ : state)
     benchmark::DoNotOptimize(place::search_streamed(walks.query, walks.reference, options).data());
   state.counters["cell_time"] =
       benchmark::Counter(static_cast<double>(state.range(0)) * static_cast<double>(state.range(1)),
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(search_streamed)->Args({3576, 3576, 10})->Args({2000, 3576, 10})->Unit(benchmark::kMillisecond);
-BENCHMARK(search_streamed)
+constexpr std::size_t kKept = place::StreamedSearchOptions{}.kept_bytes;
+BENCHMARK_CAPTURE(search_streamed, default, kKept)
+    ->Name("search_streamed")
+    ->Args({3576, 3576, 10})
+    ->Args({2000, 3576, 10})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(search_streamed, default, kKept)
     ->Name("large_search_streamed")
     ->Args({2000, 100000, 10})
     ->Args({2000, 1000000, 10})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(search_streamed, nothing_kept, 0)
+    ->Name("large_search_streamed_nothing_kept")
+    ->Args({2000, 100000, 10})
     ->Unit(benchmark::kMillisecond);
 
 // ---- The database ----

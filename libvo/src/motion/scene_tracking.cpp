@@ -4,8 +4,6 @@
 #include "vo/motion/keyframe_heights.hpp"
 #include "vo/motion/landmark_tracking.hpp"
 
-#include <ranges>
-
 namespace vo {
 namespace {
 
@@ -51,9 +49,10 @@ void make_keyframe(TrackedScene& scene, const SceneTrackingOptions& options) {
   LandmarkMap& map = scene.map;
   const std::size_t last = map.keyframes.size() - 1;
   const Pose3 new_from_last = compose(inverse(scene.pose), map.keyframes[last].pose);
-  for (SegmentFrame& frame : std::views::reverse(scene.frames)) {
-    if (frame.frame <= map.keyframes[last].frame) break;
-    if (frame.before) frame.after = AnchoredPose{last + 1, compose(new_from_last, frame.before->in_keyframe)};
+  for (auto frame = scene.frames.rbegin(); frame != scene.frames.rend(); ++frame) {
+    if (frame->frame <= map.keyframes[last].frame) break;
+    if (frame->before)
+      frame->after = AnchoredPose{last + 1, compose(new_from_last, frame->before->in_keyframe)};
   }
   scene.frames.back().before = AnchoredPose{last + 1, {}};
   scene.frames.back().after.reset();
