@@ -12,6 +12,7 @@ namespace place {
 namespace {
 
 constexpr std::size_t kRows = 64;  // taken in at a time
+static_assert(SequenceSearcher::kPart % kChunk == 0);
 
 }  // namespace
 
