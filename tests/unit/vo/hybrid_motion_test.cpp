@@ -80,6 +80,90 @@ TEST(HybridMotion, HoldsTheSpeedWhereNothingIsSeen) {
   }
 }
 
+/// A walk in metres at 32 frames/s (whose times are exact) that is lost for three seconds after twelve: a
+/// metre a second before, two after. Its steps are known but for the loss.
+struct LostBetweenTwoSpeeds {
+  static constexpr std::size_t kFrames = 865, kLost = 385, kFoundAgain = 481;
+  LostBetweenTwoSpeeds() {
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      evidence.time_s.push_back(static_cast<double>(i) / 32);
+      evidence.steps_m.push_back(i == 0 ? 0 : (i < kFoundAgain ? 1.0 : 2.0) / 32);
+      const bool seen = i > 0 && (i < kLost || i >= kFoundAgain);
+      evidence.steps_known.push_back(i < kLost || i >= kFoundAgain);
+      track.frames.push_back(
+          {.valid = seen, .displacement = evidence.steps_m[i], .segment = i < kFoundAgain ? 0 : 1});
+    }
+    evidence.track = &track;
+  }
+  vo::DisplacementTrack track;
+  vo::MotionEvidence evidence;
+};
+
+TEST(HybridMotion, HoldsASpeedBetweenTheOneBeforeAndTheOneAfter) {
+  LostBetweenTwoSpeeds walk;
+  // The last frame before the loss was a leap: it counts as one of a second's.
+  constexpr double kLeap = 1.5;
+  walk.track.frames[walk.kLost - 1].displacement *= kLeap;
+  const vo::HybridMotion motion = vo::hybrid_motion(walk.evidence, unsmoothed());
+  EXPECT_TRUE(motion.metric);
+  const double before = (31 + kLeap) / 32, after = 2;
+  for (std::size_t i = walk.kLost; i < walk.kFoundAgain; ++i) {
+    ASSERT_EQ(motion.frames[i].source, DisplacementSource::kHeld);
+    const double share = (static_cast<double>(i - walk.kLost) + 0.5) / (walk.kFoundAgain - walk.kLost);
+    // The track's unit comes of steps that know of no leap, so that it is 0.1 % off.
+    EXPECT_NEAR(motion.frames[i].value * 32, std::lerp(before, after, share), 0.003) << i;
+    // Speeds of one and of two, half of the time each: a third of their mean.
+    EXPECT_NEAR(motion.frames[i].sigma / motion.frames[i].value, 1.0 / 3, 0.02) << i;
+  }
+}
+
+TEST(HybridMotion, MeasuresTheErrorOfStepsOverSeconds) {
+  LostBetweenTwoSpeeds walk;
+  // A fifth too long in one second, a fifth too short in the next.
+  for (std::size_t i = 1; i < walk.kFrames; ++i) {
+    walk.evidence.steps_m[i] = (1 + ((i - 1) / 32 % 2 == 0 ? 0.2 : -0.2)) / 32;
+    walk.track.frames[i].displacement = 1.0 / 32;
+  }
+  walk.evidence.steps_known.assign(walk.kFrames, true);
+  const vo::HybridMotion motion = vo::hybrid_motion(walk.evidence, unsmoothed());
+  for (std::size_t i = walk.kLost; i < walk.kFoundAgain; ++i) {
+    ASSERT_EQ(motion.frames[i].source, DisplacementSource::kSteps);
+    EXPECT_NEAR(motion.frames[i].sigma / motion.frames[i].value, 0.2, 0.02);
+  }
+  // Four seconds beside the track are too few to tell.
+  for (std::size_t i = 5 * 32; i < walk.kFrames; ++i) walk.track.frames[i].valid = false;
+  const vo::HybridMotion hardly = vo::hybrid_motion(walk.evidence, unsmoothed());
+  EXPECT_EQ(hardly.frames[450].sigma, vo::kUsualStepsError * hardly.frames[450].value);
+}
+
+TEST(HybridMotion, LearnsWhatErrorsMeanNearTheLoss) {
+  // Another scene from the middle on, in which errors are twice as large.
+  KnownMotion walk = known_motion(160, 0.8, 1.8);
+  constexpr std::size_t kOther = 2000;
+  for (auto& errors : walk.errors.by_separation)
+    for (std::size_t i = kOther; i < errors.size(); ++i) errors[i] *= 2;
+  walk.lose(1000, 1100, 1);
+  walk.lose(3000, 3100, 1);
+  const vo::HybridMotion motion = vo::hybrid_motion(walk.evidence(), unsmoothed());
+  for (const std::size_t begin : {1000, 3000}) {
+    EXPECT_EQ(motion.frames[begin].source, DisplacementSource::kAlignmentError);
+    EXPECT_NEAR(length(motion, begin, begin + 100), test_support::sum(walk.metres, begin, begin + 100),
+                0.1 * test_support::sum(walk.metres, begin, begin + 100));
+  }
+}
+
+TEST(HybridMotion, LearnsFromAllWhereTooLittleIsNear) {
+  KnownMotion walk = known_motion(60, 0.8, 1.8);
+  walk.lose(600, 725, 1);
+  vo::HybridMotionOptions options = unsmoothed();
+  options.window_s = 0.1;
+  const vo::HybridMotion motion = vo::hybrid_motion(walk.evidence(), options);
+  for (std::size_t i = 600; i < 725; ++i) {
+    ASSERT_EQ(motion.frames[i].source, DisplacementSource::kAlignmentError);
+    EXPECT_NEAR(motion.frames[i].value, walk.metres[i], 0.12 * walk.metres[i]) << i;
+  }
+}
+
 TEST(HybridMotion, StandsWhereTheViewDoesNotChange) {
   KnownMotion walk = known_motion(40, 1, 1.5);
   walk.lose(300, 400, 1);
