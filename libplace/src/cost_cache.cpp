@@ -4,16 +4,20 @@
 #include <atomic>
 #include <limits>
 
-#include <vo/base/large_memory.hpp>
 #include <vo/base/parallel.hpp>
 
 namespace place {
 
+CostCache::CostCache(const CostSource& source, std::size_t bytes)
+    : source_(source),
+      size_(std::min(bytes / sizeof(std::uint16_t), source.queries() * source.references())),
+      memory_(vo::make_large_array<std::uint16_t>(size_)) {}
+
 void CostCache::keep(const ConstCosts& part) {
-  const std::size_t bytes = part.queries * part.references * sizeof(std::uint16_t);
-  if (bytes > room_) return;
-  Part kept{part.first_reference, part.references, std::vector<std::uint32_t>(part.queries),
-            vo::make_populated<std::uint16_t>(part.queries * part.references)};
+  const std::size_t count = part.queries * part.references;
+  if (count > size_ - used_) return;
+  std::uint16_t* const kept_above = memory_.get() + used_;
+  Part kept{part.first_reference, part.references, std::vector<std::uint32_t>(part.queries), kept_above};
   constexpr float kExact = 1 << 20;  // a float of so many units still tells which of them it is
   const float per_unit = 1 / source_.unit();
   const auto units = [&](float cost) { return static_cast<std::int32_t>(cost * per_unit + 0.5F); };
@@ -31,11 +35,11 @@ void CostCache::keep(const ConstCosts& part) {
       return;
     }
     kept.least[q] = static_cast<std::uint32_t>(base);
-    std::uint16_t* above = kept.above.get() + q * part.references;
+    std::uint16_t* above = kept_above + q * part.references;
     for (std::size_t r = 0; r < row.size(); ++r) above[r] = static_cast<std::uint16_t>(units(row[r]) - base);
   });
   if (!fits) return;
-  room_ -= bytes;
+  used_ += count;
   parts_.push_back(std::move(kept));
 }
 
@@ -52,7 +56,7 @@ void CostCache::fetch(const Costs& block) const {
     if (first >= end) continue;
     make_until(first);
     vo::parallel_for(block.queries, [&](std::size_t q) {
-      const std::uint16_t* above = part.above.get() + q * part.count + (first - part.first);
+      const std::uint16_t* above = part.above + q * part.count + (first - part.first);
       const std::span<float> costs = block.columns(first, end - first).row(q);
       const auto least = static_cast<std::int32_t>(part.least[q]);
       for (std::size_t r = 0; r < costs.size(); ++r) costs[r] = static_cast<float>(least + above[r]) * unit;

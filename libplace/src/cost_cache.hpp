@@ -4,8 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
+
+#include <vo/base/large_memory.hpp>
 
 namespace place {
 
@@ -17,7 +18,7 @@ namespace place {
 class CostCache {
  public:
   /// Keeps `bytes` at most. `source` is kept by reference.
-  CostCache(const CostSource& source, std::size_t bytes) : source_(source), room_(bytes) {}
+  CostCache(const CostSource& source, std::size_t bytes);
 
   /// Keeps a part that `source` gave, of all queries and of references that were not kept yet. In parallel.
   void keep(const ConstCosts& part);
@@ -29,11 +30,12 @@ class CostCache {
   struct Part {
     std::size_t first, count;
     std::vector<std::uint32_t> least;  ///< of each row, in units
-    std::unique_ptr<std::uint16_t[]> above;
+    const std::uint16_t* above;        ///< of each row its least, row by row; in `memory_`
   };
 
   const CostSource& source_;
-  std::size_t room_;
+  std::size_t size_, used_ = 0;  ///< of `memory_`, costs
+  vo::LargeArray<std::uint16_t> memory_;
   std::vector<Part> parts_;  ///< by increasing reference
 };
 

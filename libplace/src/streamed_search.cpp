@@ -43,7 +43,7 @@ std::vector<SequenceMatch> search_streamed(const vo::ImageStack& queries, const 
   const std::size_t part = part_width(source.queries(), options.search);
   const std::size_t reach = round_up(reach_of(options.search), ContrastEnhancer::kAlign);
   const auto values =
-      vo::make_populated<float>(source.queries() * std::min(width, part + 2 * (reach + enhancer.margin())));
+      vo::make_large_array<float>(source.queries() * std::min(width, part + 2 * (reach + enhancer.margin())));
   const auto with_margin = [&](std::size_t first, std::size_t count, std::size_t margin) {
     const std::size_t begin = first - std::min(first, margin),
                       stride = std::min(width, first + count + margin) - begin;

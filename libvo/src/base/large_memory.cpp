@@ -1,9 +1,27 @@
 #include "vo/base/large_memory.hpp"
 
 #include <cstdint>
+#include <new>
 #include <sys/mman.h>
 
 namespace vo {
+namespace {
+
+constexpr std::align_val_t kLargePage{2 << 20};
+
+}  // namespace
+
+void* allocate_large(std::size_t bytes) {
+  void* memory = ::operator new(bytes, kLargePage);
+#if defined(MADV_HUGEPAGE)
+  madvise(memory, bytes, MADV_HUGEPAGE);
+#endif
+  return memory;
+}
+
+void free_large(void* memory) {
+  ::operator delete(memory, kLargePage);
+}
 
 void populate([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_POPULATE_WRITE) && defined(MADV_HUGEPAGE)

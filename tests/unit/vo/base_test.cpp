@@ -38,6 +38,15 @@ TEST(ResizePopulated, KeepsWhatThereIsAndAddsZeros) {
   EXPECT_THAT(bytes, testing::IsEmpty());
 }
 
+TEST(LargeArray, BeginsAtALargePageAndHoldsWhatIsWritten) {
+  for (const std::size_t size : {0, 1, 3'000'001}) {
+    const auto values = vo::make_large_array<std::uint16_t>(size);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(values.get()) % (2 << 20), 0U);
+    std::fill_n(values.get(), size, std::uint16_t{40'000});
+    EXPECT_EQ(std::count(values.get(), values.get() + size, 40'000), static_cast<std::ptrdiff_t>(size));
+  }
+}
+
 TEST(ParallelFor, RunsEveryIndexOnceForAnyThreadCount) {
   for (const int threads : {1, 2, 5}) {
     vo::set_thread_count(threads);

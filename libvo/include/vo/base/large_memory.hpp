@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 
 namespace vo {
 
@@ -10,12 +11,21 @@ namespace vo {
 /// system knows no such call; nothing changes but the time. The memory's bytes stay undefined. O(bytes).
 void populate(void* memory, std::size_t bytes);
 
-/// An array of undefined values with its pages populated.
+/// Memory that begins at a large page and asks for large ones, which come as they are touched: by several
+/// threads at once, if those do. Bytes are undefined. Throws `std::bad_alloc`.
+void* allocate_large(std::size_t bytes);
+void free_large(void* memory);
+
+struct FreeLarge {
+  void operator()(void* memory) const { free_large(memory); }
+};
 template <typename Value>
-std::unique_ptr<Value[]> make_populated(std::size_t size) {
-  auto values = std::make_unique_for_overwrite<Value[]>(size);
-  populate(values.get(), size * sizeof(Value));
-  return values;
+using LargeArray = std::unique_ptr<Value[], FreeLarge>;
+
+/// An array of undefined values in such memory.
+template <typename Value>
+requires std::is_trivial_v<Value> LargeArray<Value> make_large_array(std::size_t size) {
+  return LargeArray<Value>(static_cast<Value*>(allocate_large(size * sizeof(Value))));
 }
 
 /// `vector.resize(size)` with its pages populated, for vectors of many megabytes.
