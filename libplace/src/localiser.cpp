@@ -47,18 +47,20 @@ struct Candidate {
   bool partial = false;
 };
 
-/// Puts a part of a matrix into one of which every cell is the least of `shrink` by `shrink`; its columns are
-/// those of the references `columns`.
-void shrink_part(const ConstCosts& part, const std::vector<std::size_t>& columns, std::size_t shrink,
+/// Puts a part of a matrix into one of which every cell is the least of `shrink` queries by the references
+/// that have its number in `cell_of`, which never decreases.
+void shrink_part(const ConstCosts& part, const std::vector<std::size_t>& cell_of, std::size_t shrink,
                  CostMatrix& shrunk) {
   vo::parallel_for(shrunk.queries, [&](std::size_t cell_row) {
     const std::span<float> cells = shrunk.row(cell_row);
     for (std::size_t q = cell_row * shrink; q < std::min(part.queries, (cell_row + 1) * shrink); ++q) {
       const std::span<const float> row = part.row(q);
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        const std::size_t column = columns[part.first_reference + i];
-        float& cell = cells[shrink == 1 ? column : column / shrink];
-        cell = std::min(cell, row[i]);
+      const std::size_t* cell = cell_of.data() + part.first_reference;
+      for (std::size_t i = 0; i < row.size();) {
+        const std::size_t same = cell[i];
+        float least = cells[same];
+        for (; i < row.size() && cell[i] == same; ++i) least = std::min(least, row[i]);
+        cells[same] = least;
       }
     }
   });
@@ -101,8 +103,10 @@ std::vector<Candidate> search_our_way(const vo::ImageStack& query_thumbnails,
   StreamedSearchOptions streamed{
       .cost = options.cost, .enhancement = options.enhancement, .search = options.search};
   streamed.search.length = length;
+  std::vector<std::size_t> cell_of;
+  for (const std::size_t column : columns) cell_of.push_back(column / matrices.shrink);
   const auto keep_in = [&](CostMatrix& matrix) {
-    return [&](const ConstCosts& part) { shrink_part(part, columns, matrices.shrink, matrix); };
+    return [&](const ConstCosts& part) { shrink_part(part, cell_of, matrices.shrink, matrix); };
   };
   const MatrixCallbacks keep{keep_in(matrices.cost), keep_in(matrices.enhanced)};
   std::vector<Candidate> found;
