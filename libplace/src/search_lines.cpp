@@ -1,5 +1,6 @@
 #include "place/search_lines.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -65,6 +66,13 @@ std::vector<SearchLine> search_lines(const SequenceSearchOptions& options) {
     if (lines.empty() || lines.back().offsets != line.offsets) lines.push_back(std::move(line));
   }
   return lines;
+}
+
+std::size_t reach_of(const std::vector<SearchLine>& lines) {
+  int reach = 0;
+  for (const SearchLine& line : lines)
+    reach = std::max({reach, -line.offsets.front(), line.offsets.back()});  // they never decrease
+  return static_cast<std::size_t>(reach);
 }
 
 }  // namespace place

@@ -21,19 +21,18 @@ class SequenceSearcher::Search {
   Search(std::size_t queries, std::size_t references, const CostRange& range,
          const SequenceSearchOptions& options)
       : plan_(queries, references, range, options),
+        margin_(reach_of(plan_.lines)),
         window_(std::min(references, static_cast<std::size_t>(options.uniqueness_window))),
         found_(queries) {}
 
-  [[nodiscard]] std::size_t margin() const {
-    return static_cast<std::size_t>(std::max(-plan_.runs.lowest_reference, plan_.runs.highest_reference));
-  }
+  [[nodiscard]] std::size_t margin() const { return margin_; }
 
   void push(const ConstCosts& costs, std::size_t count) {
     const std::size_t past = searched_ + count, given_past = costs.first_reference + costs.references;
     const bool last = past == plan_.references;
     if (past > plan_.references || costs.queries != plan_.queries ||
-        costs.first_reference > searched_ - std::min(searched_, margin()) ||
-        given_past < std::min(plan_.references, past + margin()) ||
+        costs.first_reference > searched_ - std::min(searched_, margin_) ||
+        given_past < std::min(plan_.references, past + margin_) ||
         (!last && (count % kPart != 0 || count < window_))) {
       throw std::invalid_argument(
           "SequenceSearcher: parts of the reference by all queries, in order, expected");
@@ -158,7 +157,7 @@ class SequenceSearcher::Search {
   }
 
   SearchPlan plan_;
-  std::size_t window_;  ///< references on either side
+  std::size_t margin_, window_;  ///< references on either side
   std::vector<Found> found_;
   std::size_t searched_ = 0;  ///< references, those of the part too
   // Of the part that is being searched:

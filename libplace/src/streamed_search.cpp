@@ -14,21 +14,12 @@ constexpr std::size_t round_up(std::size_t value, std::size_t step) {
   return (value + step - 1) / step * step;
 }
 
-/// References of a part: so many that all queries' costs fit a cache, and no fewer than the search asks for.
-std::size_t part_width(std::size_t queries, const SequenceSearchOptions& search) {
+/// References of a part: so many that all queries' costs fit a cache, no fewer than the searcher asks for,
+/// and several times those that lines reach beyond it, which are enhanced for two parts.
+std::size_t part_width(std::size_t queries, std::size_t reach, std::size_t window) {
   constexpr std::size_t kBytes = 16 << 20, kStep = ContrastEnhancer::kPart, kMost = 16 * kStep;
   const std::size_t fitting = kBytes / sizeof(float) / std::max<std::size_t>(1, queries) / kStep * kStep;
-  return std::max({std::clamp(fitting, kStep, kMost),
-                   round_up(static_cast<std::size_t>(search.length), kStep),
-                   round_up(static_cast<std::size_t>(search.uniqueness_window), kStep)});
-}
-
-/// Keyframes that a line strays from its pair.
-std::size_t reach_of(const SequenceSearchOptions& search) {
-  int reach = 0;
-  for (const SearchLine& line : search_lines(search))
-    reach = std::max({reach, -line.offsets.front(), line.offsets.back()});
-  return static_cast<std::size_t>(reach);
+  return std::max({std::clamp(fitting, kStep, kMost), round_up(4 * reach, kStep), round_up(window, kStep)});
 }
 
 }  // namespace
@@ -40,8 +31,9 @@ std::vector<SequenceMatch> search_streamed(const vo::ImageStack& queries, const 
   const std::size_t width = source.references();
   ContrastEnhancer enhancer(source.queries(), width, options.enhancement);
   CostCache cache(source, options.kept_bytes);
-  const std::size_t part = part_width(source.queries(), options.search);
-  const std::size_t reach = round_up(reach_of(options.search), ContrastEnhancer::kAlign);
+  const std::size_t reach = round_up(reach_of(search_lines(options.search)), ContrastEnhancer::kAlign);
+  const std::size_t part =
+      part_width(source.queries(), reach, static_cast<std::size_t>(options.search.uniqueness_window));
   const auto values =
       vo::make_large_array<float>(source.queries() * std::min(width, part + 2 * (reach + enhancer.margin())));
   const auto with_margin = [&](std::size_t first, std::size_t count, std::size_t margin) {
@@ -64,7 +56,7 @@ std::vector<SequenceMatch> search_streamed(const vo::ImageStack& queries, const 
   // The second: enhanced, and searched.
   SequenceSearcher searcher(source.queries(), width, enhancer.range(), options.search);
   for_each_part([&](std::size_t first, std::size_t count) {
-    Costs costs = with_margin(first, count, reach + enhancer.margin());
+    const Costs costs = with_margin(first, count, reach + enhancer.margin());
     cache.fetch(costs);
     if (callbacks.cost) callbacks.cost(costs.columns(first, count));
     enhancer.enhance(costs);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,11 @@ struct SearchLine {
   std::vector<int> offsets;
 };
 
-/// The distinct lines of the search range, by increasing slope.
+/// The distinct lines of the search range, by increasing slope. Throws `std::invalid_argument` for options
+/// that are not valid.
 std::vector<SearchLine> search_lines(const SequenceSearchOptions& options);
+
+/// How many references the lines stray from their pair at most.
+std::size_t reach_of(const std::vector<SearchLine>& lines);
 
 }  // namespace place

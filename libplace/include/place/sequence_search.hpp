@@ -25,8 +25,8 @@ struct SequenceMatch {
 /// every length the same spread (enhanced costs have mean 0; a plain mean would let short lines win by
 /// chance). Lines with less than min_fraction * length terms are not looked at. The score is the difference
 /// to the best line outside the uniqueness window; with no such line (a very short reference), to 0, the cost
-/// of an average line. Throws `std::invalid_argument` for options that are not valid. O(queries * references
-/// * lines * length), in parallel over queries; O(references) memory for each thread.
+/// of an average line. Throws `std::invalid_argument` for options that are not valid. By
+/// `SequenceSearcher`, whose rounding, cost and memory these are.
 std::vector<SequenceMatch> search_sequences(const CostMatrix& enhanced,
                                             const SequenceSearchOptions& options = {});
 

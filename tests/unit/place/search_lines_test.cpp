@@ -65,6 +65,12 @@ TEST(SearchLines, AreDistinctAndPassThroughThePair) {
   EXPECT_EQ(place::search_lines({.length = 1, .search_range_rad = 0.78}).size(), 1U);
 }
 
+TEST(SearchLines, ReachAsFarAsTheSteepestOfThem) {
+  EXPECT_EQ(place::reach_of({}), 0U);
+  EXPECT_EQ(place::reach_of({{1, {-2, -1, 0, 1}}, {2, {-4, -2, 0, 2}}}), 4U);  // back, of an even length
+  EXPECT_EQ(place::reach_of({{1, {-1, 0, 1, 2}}, {1, {0, 3}}}), 3U);
+}
+
 TEST(SequenceSearchOptions, SayWhatIsWrongWithThem) {
   const auto reason_of = [](const SequenceSearchOptions& options) {
     std::string reason;
