@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include <place/resampling.hpp>
+#include <place/route/resampling.hpp>
 
 namespace retrace {
 

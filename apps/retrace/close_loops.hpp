@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-#include <place/drift_correction.hpp>
-#include <place/loop_closure.hpp>
-#include <vo/walk_motion.hpp>
+#include <place/trajectory/drift_correction.hpp>
+#include <place/trajectory/loop_closure.hpp>
+#include <vo/motion/walk_motion.hpp>
 
 namespace retrace {
 

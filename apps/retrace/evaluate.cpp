@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <place/evaluation.hpp>
-#include <place/ground_truth.hpp>
+#include <place/evaluation/evaluation.hpp>
+#include <place/evaluation/ground_truth.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/atomic_file.hpp>
 

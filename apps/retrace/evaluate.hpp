@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <place/evaluation.hpp>
+#include <place/evaluation/evaluation.hpp>
 
 namespace retrace {
 

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <place/evaluation/odometry_evaluation.hpp>
 #include <vo/base/error.hpp>
-#include <vo/gait/odometry_evaluation.hpp>
 #include <vo/io/atomic_file.hpp>
 #include <vo/io/csv.hpp>
 #include <vo/io/trajectory_io.hpp>
@@ -36,21 +36,21 @@ struct EvaluateOdometryOptions {
   std::optional<double> map_scale_m_per_px;
   std::string map_image;
   std::optional<std::size_t> true_steps;
-  vo::OdometryEvaluationOptions evaluation;
+  place::OdometryEvaluationOptions evaluation;
 };
 
 /// The truth: poses with times, or else a way.
 struct Truth {
   std::optional<std::size_t> steps;
   vo::WalkTruth walk;
-  std::vector<vo::WayPoint> way;
+  std::vector<place::WayPoint> way;
 };
 
-std::vector<vo::WayPoint> read_way(const vo::CsvTable& table, const std::string& path,
-                                   double scale_m_per_px) {
+std::vector<place::WayPoint> read_way(const vo::CsvTable& table, const std::string& path,
+                                      double scale_m_per_px) {
   const std::vector<double> x_px = table.numbers("x_px");
   const std::vector<double> y_px = table.numbers("y_px");
-  std::vector<vo::WayPoint> way;
+  std::vector<place::WayPoint> way;
   bool moves = false;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     way.push_back({x_px[i] * scale_m_per_px, -y_px[i] * scale_m_per_px});  // down on the map is south
@@ -79,24 +79,24 @@ Truth read_truth(const EvaluateOdometryOptions& options) {
 }
 
 ordered_json metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
-                          const vo::OdometryEvaluation& evaluation,
-                          const vo::OdometryEvaluationOptions& options) {
+                          const place::OdometryEvaluation& evaluation,
+                          const place::OdometryEvaluationOptions& options) {
   ordered_json json{{"steps_estimated", steps},     {"steps_true", nullptr},
                     {"step_error_pct", nullptr},    {"distance_m", evaluation.distance_m},
                     {"segments", options.segments}, {"segment_m", evaluation.segment_m},
                     {"seed", options.seed}};
   if (true_steps) json["steps_true"] = *true_steps;
-  if (true_steps && *true_steps > 0) json["step_error_pct"] = vo::step_error_pct(steps, *true_steps);
-  const auto add = [&](const char* name, double vo::OdometryErrors::*value) {
-    for (const vo::OdometryErrors& errors : evaluation.errors)
+  if (true_steps && *true_steps > 0) json["step_error_pct"] = place::step_error_pct(steps, *true_steps);
+  const auto add = [&](const char* name, double place::OdometryErrors::*value) {
+    for (const place::OdometryErrors& errors : evaluation.errors)
       json[name][fmt::format("{}", errors.at_m)] = errors.count > 0 ? ordered_json(errors.*value) : nullptr;
   };
-  add("euclidean_error_m", &vo::OdometryErrors::euclidean_mean_m);
-  add("euclidean_error_sd_m", &vo::OdometryErrors::euclidean_sd_m);
-  add("heading_error_deg", &vo::OdometryErrors::heading_mean_deg);
-  add("heading_error_sd_deg", &vo::OdometryErrors::heading_sd_deg);
-  add("heading_absolute_error_deg", &vo::OdometryErrors::heading_abs_mean_deg);
-  for (const vo::OdometryErrors& errors : evaluation.errors)
+  add("euclidean_error_m", &place::OdometryErrors::euclidean_mean_m);
+  add("euclidean_error_sd_m", &place::OdometryErrors::euclidean_sd_m);
+  add("heading_error_deg", &place::OdometryErrors::heading_mean_deg);
+  add("heading_error_sd_deg", &place::OdometryErrors::heading_sd_deg);
+  add("heading_absolute_error_deg", &place::OdometryErrors::heading_abs_mean_deg);
+  for (const place::OdometryErrors& errors : evaluation.errors)
     json["measurements"][fmt::format("{}", errors.at_m)] = errors.count;
   json["protocol"] = kProtocol;
   return json;
@@ -118,9 +118,10 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   const std::size_t steps = vo::CsvTable::read(folder / "steps.csv").rows();
   const vo::Trajectory trajectory = vo::read_tum(folder / "trajectory.tum");
   const Truth truth = read_truth(options);
-  const auto pairs = truth.way.empty() ? vo::pair_by_time(truth.walk.poses, truth.walk.distance_m, trajectory)
-                                       : vo::pair_by_share(truth.way, trajectory);
-  const vo::OdometryEvaluation evaluation = vo::evaluate_odometry(pairs, options.evaluation);
+  const auto pairs = truth.way.empty()
+                         ? place::pair_by_time(truth.walk.poses, truth.walk.distance_m, trajectory)
+                         : place::pair_by_share(truth.way, trajectory);
+  const place::OdometryEvaluation evaluation = place::evaluate_odometry(pairs, options.evaluation);
   if (evaluation.segment_m == 0) {
     throw vo::Error(options.truth, fmt::format("and the trajectory share {:.1f} m", evaluation.distance_m),
                     fmt::format("{} m or more", options.evaluation.at_m.front()));
@@ -143,7 +144,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   if (!metrics["step_error_pct"].is_null())
     fmt::print(", error {:.2f} %", metrics["step_error_pct"].get<double>());
   fmt::print("\n{:>7} {:>12} {:>16} {:>18}\n", "at m", "measurements", "position m", "heading deg");
-  for (const vo::OdometryErrors& errors : evaluation.errors) {
+  for (const place::OdometryErrors& errors : evaluation.errors) {
     if (errors.count == 0) continue;
     fmt::print("{:>7} {:>12} {:>16} {:>18}\n", errors.at_m, errors.count,
                fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
@@ -156,7 +157,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
 
 Command add_evaluate_odometry(CLI::App& root) {
   auto options = std::make_shared<EvaluateOdometryOptions>();
-  vo::OdometryEvaluationOptions& evaluation = options->evaluation;
+  place::OdometryEvaluationOptions& evaluation = options->evaluation;
   CLI::App* app =
       root.add_subcommand("evaluate-odometry", "steps and trajectory of a walk against the truth");
   app->add_option("run", options->folder, "folder written by `retrace odometry`")->required();

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <place/route_database.hpp>
+#include <place/route/route_database.hpp>
 
 namespace retrace {
 namespace {

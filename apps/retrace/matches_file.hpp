@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <place/match.hpp>
+#include <place/match/match.hpp>
 
 namespace retrace {
 

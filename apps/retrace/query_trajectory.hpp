@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <place/localiser.hpp>
-#include <place/route_position.hpp>
+#include <place/route/route_position.hpp>
 
 namespace retrace {
 

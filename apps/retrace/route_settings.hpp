@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <place/route_database.hpp>
+#include <place/route/route_database.hpp>
 
 namespace retrace {
 

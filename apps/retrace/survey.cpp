@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <place/geographic.hpp>
+#include <place/route/geographic.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/trajectory_io.hpp>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <place/evaluation.hpp>
+#include <place/evaluation/evaluation.hpp>
 
 namespace retrace {
 

@@ -10,7 +10,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <place/cost_matrix.hpp>
+#include <place/match/cost_matrix.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/io/atomic_file.hpp>

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <optional>
 
-#include <place/trajectory_evaluation.hpp>
+#include <place/evaluation/trajectory_evaluation.hpp>
 #include <vo/io/csv.hpp>
 #include <vo/io/trajectory_io.hpp>
 

@@ -9,12 +9,12 @@
 
 #include <fmt/format.h>
 
+#include <place/evaluation/kitti_evaluation.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/atomic_file.hpp>
 #include <vo/io/csv.hpp>
 #include <vo/io/pose_series_io.hpp>
 #include <vo/motion/external_trajectory.hpp>
-#include <vo/motion/kitti_evaluation.hpp>
 
 namespace retrace {
 namespace {
@@ -73,7 +73,7 @@ ordered_json kitti_metrics(const fs::path& folder, const fs::path& kitti_poses) 
     throw vo::Error(kitti_poses.string(), fmt::format("has {} poses", truth.poses.size()),
                     fmt::format("{}, one for each frame of the walk", estimate.size()));
   }
-  const std::optional<double> metres = vo::metres_per_unit(truth.poses, estimate, kScaledBy_m);
+  const std::optional<double> metres = place::metres_per_unit(truth.poses, estimate, kScaledBy_m);
   if (!metres) {
     throw vo::Error((folder / kTum).string(), fmt::format("is lost within {} m", kScaledBy_m),
                     "poses over them, to take the scale from");
@@ -81,8 +81,8 @@ ordered_json kitti_metrics(const fs::path& folder, const fs::path& kitti_poses) 
   for (std::optional<vo::Pose3>& pose : estimate) {
     if (pose) pose->position *= *metres;
   }
-  const vo::KittiEvaluation evaluation = vo::evaluate_kitti(truth.poses, estimate);
-  const auto json_of = [](const vo::KittiErrors& errors) {
+  const place::KittiEvaluation evaluation = place::evaluate_kitti(truth.poses, estimate);
+  const auto json_of = [](const place::KittiErrors& errors) {
     return ordered_json{{"stretches", errors.stretches},
                         {"translation_pct", errors.translation_pct},
                         {"rotation_deg_per_m", errors.rotation_deg_per_m}};
@@ -93,7 +93,7 @@ ordered_json kitti_metrics(const fs::path& folder, const fs::path& kitti_poses) 
                     {"scaled_by_first_m", kScaledBy_m},
                     {"stretches_unknown", evaluation.unknown},
                     {"all", json_of(evaluation.all)}};
-  for (const vo::KittiErrors& errors : evaluation.by_length) {
+  for (const place::KittiErrors& errors : evaluation.by_length) {
     if (errors.stretches > 0) json["by_length_m"][fmt::format("{}", errors.length_m)] = json_of(errors);
   }
   return json;

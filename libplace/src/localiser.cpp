@@ -1,6 +1,6 @@
 #include "place/localiser.hpp"
 
-#include "place/cost_matrix.hpp"
+#include "place/match/cost_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>

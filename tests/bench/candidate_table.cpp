@@ -15,8 +15,8 @@
 #include <ctime>
 #include <vector>
 
-#include <place/candidates.hpp>
-#include <place/streamed_search.hpp>
+#include <place/match/candidates.hpp>
+#include <place/match/streamed_search.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 #include <vo/image/patch_normalisation.hpp>

@@ -2,8 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <place/drift_correction.hpp>
-#include <place/fixed_lag.hpp>
+#include <place/trajectory/drift_correction.hpp>
+#include <place/trajectory/fixed_lag.hpp>
 
 namespace {
 

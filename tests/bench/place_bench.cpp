@@ -1,4 +1,4 @@
-#include "kernels/absolute_difference.hpp"
+#include "match/kernels/absolute_difference.hpp"
 #include "sad_limit.hpp"
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 #include <benchmark/benchmark.h>
 #include <opencv2/core.hpp>
 
-#include <place/contrast_enhancement.hpp>
-#include <place/cost_matrix.hpp>
-#include <place/route_database.hpp>
-#include <place/sequence_search.hpp>
-#include <place/streamed_search.hpp>
+#include <place/match/contrast_enhancement.hpp>
+#include <place/match/cost_matrix.hpp>
+#include <place/match/sequence_search.hpp>
+#include <place/match/streamed_search.hpp>
+#include <place/route/route_database.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 

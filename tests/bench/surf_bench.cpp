@@ -6,10 +6,10 @@
 #include <benchmark/benchmark.h>
 
 #include <vo/base/parallel.hpp>
-#include <vo/gait/matching.hpp>
 #include <vo/surf/integral_image.hpp>
 #include <vo/surf/smooth_pyramid.hpp>
 #include <vo/surf/surf.hpp>
+#include <vo/tracks/matching.hpp>
 
 namespace {
 

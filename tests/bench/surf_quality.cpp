@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include <vo/gait/matching.hpp>
 #include <vo/surf/surf.hpp>
+#include <vo/tracks/matching.hpp>
 
 namespace {
 

@@ -14,12 +14,12 @@
 #include <fmt/format.h>
 
 #include <vo/base/parallel.hpp>
-#include <vo/gait/matching.hpp>
 #include <vo/surf/descriptor.hpp>
 #include <vo/surf/integral_image.hpp>
 #include <vo/surf/orientation.hpp>
 #include <vo/surf/smooth_pyramid.hpp>
 #include <vo/surf/surf.hpp>
+#include <vo/tracks/matching.hpp>
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include <vo/base/parallel.hpp>
-#include <vo/motion/monocular_vo.hpp>
+#include <vo/visual_odometry/monocular_vo.hpp>
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <vo/io/pose_series_io.hpp>
-#include <vo/walk_motion.hpp>
+#include <vo/motion/walk_motion.hpp>
 
 /// A real drive with frames blanked: the length of hybrid motion, scaled by the truth's first 50 m.
 namespace {

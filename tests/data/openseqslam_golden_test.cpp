@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <place/openseqslam.hpp>
+#include <place/match/openseqslam.hpp>
 
 namespace {
 

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include <place/contrast_enhancement.hpp>
-#include <place/cost_matrix.hpp>
-#include <place/evaluation.hpp>
-#include <place/sequence_search.hpp>
+#include <place/evaluation/evaluation.hpp>
+#include <place/match/contrast_enhancement.hpp>
+#include <place/match/cost_matrix.hpp>
+#include <place/match/sequence_search.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/image/patch_normalisation.hpp>
 #include <vo/odometry.hpp>

@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include <place/evaluation/kitti_evaluation.hpp>
 #include <vo/io/frame_source.hpp>
 #include <vo/io/pose_series_io.hpp>
 #include <vo/io/trajectory_io.hpp>
-#include <vo/motion/kitti_evaluation.hpp>
-#include <vo/motion/monocular_vo.hpp>
+#include <vo/visual_odometry/monocular_vo.hpp>
 
 namespace {
 
@@ -53,12 +53,12 @@ TEST_F(VisualOdometryOnKitti, DriftsLessThanFivePercent) {
                               .cy_px = 172.854};  // K.txt
   vo::DisplacementTrack track = track_of(*data_ / "kitti_03" / "drive.mp4", options);
   const vo::PoseSeries truth = vo::read_pose_series(*data_ / "kitti_03" / "poses_kitti.txt");
-  const std::optional<double> metres = vo::metres_per_unit(truth.poses, track.poses, 50);
+  const std::optional<double> metres = place::metres_per_unit(truth.poses, track.poses, 50);
   ASSERT_TRUE(metres);
   for (auto& pose : track.poses) {
     if (pose) pose->position *= *metres;
   }
-  const vo::KittiEvaluation evaluation = vo::evaluate_kitti(truth.poses, track.poses);
+  const place::KittiEvaluation evaluation = place::evaluate_kitti(truth.poses, track.poses);
   std::printf("  kitti_03: %zu of %zu frames lost; translation %.2f %%, rotation %.4f deg/m\n", lost(track),
               track.size(), evaluation.all.translation_pct, evaluation.all.rotation_deg_per_m);
   EXPECT_EQ(lost(track), 0U);

@@ -1,4 +1,4 @@
-#include "kernels/absolute_difference.hpp"
+#include "match/kernels/absolute_difference.hpp"
 
 #include <cstdio>
 #include <random>

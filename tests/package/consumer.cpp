@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <vector>
 
-#include <place/cost_matrix.hpp>
-#include <place/resampling.hpp>
+#include <place/match/cost_matrix.hpp>
+#include <place/route/resampling.hpp>
 #include <place/version.hpp>
 #include <vo/image/image_stack.hpp>
 #include <vo/image/patch_normalisation.hpp>

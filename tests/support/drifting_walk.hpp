@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include <place/drift_correction.hpp>
+#include <place/trajectory/drift_correction.hpp>
 #include <vo/base/rng.hpp>
 #include <vo/base/trajectory.hpp>
 

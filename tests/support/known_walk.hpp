@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <place/walk_sampling.hpp>
+#include <place/route/walk_sampling.hpp>
 
 /// Walks along a wall whose places are known, as routes and as queries.
 namespace test_support {

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include <vo/base/camera.hpp>
 #include <vo/base/pose3.hpp>
 #include <vo/base/rng.hpp>
-#include <vo/motion/triangulation.hpp>
+#include <vo/geometry/camera.hpp>
+#include <vo/geometry/triangulation.hpp>
 
 namespace test_support {
 

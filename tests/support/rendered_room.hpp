@@ -8,9 +8,9 @@
 
 #include <opencv2/core.hpp>
 
-#include <vo/base/camera.hpp>
 #include <vo/base/pose3.hpp>
 #include <vo/base/rng.hpp>
+#include <vo/geometry/camera.hpp>
 
 namespace test_support {
 

@@ -6,9 +6,9 @@
 
 #include <Eigen/Geometry>
 
-#include <vo/base/camera.hpp>
 #include <vo/base/rng.hpp>
-#include <vo/gait/tracking_window.hpp>
+#include <vo/geometry/camera.hpp>
+#include <vo/tracks/tracking_window.hpp>
 
 namespace test_support {
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <simulate/simulator.hpp>
-#include <vo/walk_motion.hpp>
+#include <vo/motion/walk_motion.hpp>
 
 /// SSS Fig. 9 on a walk whose truth is known: sources of motion fail, the hybrid goes on.
 namespace {

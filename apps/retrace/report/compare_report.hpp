@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <place/bootstrap.hpp>
-#include <place/evaluation.hpp>
+#include <place/evaluation/bootstrap.hpp>
+#include <place/evaluation/evaluation.hpp>
 
 namespace retrace {
 

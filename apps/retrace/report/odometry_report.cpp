@@ -30,7 +30,7 @@ void put_headlines(Page& page, const OdometryView& walk) {
     numbers.push_back({"Bridged", summary["frames_bridged"].dump(), "frames with too few matches"});
   }
   if (walk.truth != nullptr) {
-    for (const vo::OdometryErrors& errors : walk.truth->evaluation.errors) {
+    for (const place::OdometryErrors& errors : walk.truth->evaluation.errors) {
       if (errors.count == 0 || (errors.at_m != 10 && errors.at_m != 50 && errors.at_m != 100)) continue;
       numbers.push_back({fmt::format("Error after {:g} m", errors.at_m),
                          fmt::format("{:.2f} m", errors.euclidean_mean_m),
@@ -50,7 +50,7 @@ void put_errors(Page& page, const OdometryView& walk) {
              "Fig. 7].");
   page.chart("", heading_error_chart(walk), "Estimate minus truth.");
   std::vector<std::vector<std::string>> rows;
-  for (const vo::OdometryErrors& e : walk.truth->evaluation.errors) {
+  for (const place::OdometryErrors& e : walk.truth->evaluation.errors) {
     if (e.count == 0) continue;
     rows.push_back({fmt::format("{:g}", e.at_m), std::to_string(e.count),
                     fmt::format("{:.2f}", e.euclidean_mean_m), fmt::format("{:.2f}", e.euclidean_sd_m),

@@ -16,7 +16,7 @@ namespace retrace {
 namespace {
 
 /// The point of a path some metres of way from its beginning, or its end.
-vo::WayPoint point_along(const std::vector<vo::WayPoint>& path, double metres) {
+place::WayPoint point_along(const std::vector<place::WayPoint>& path, double metres) {
   double walked = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double leg = std::hypot(path[i].x_m - path[i - 1].x_m, path[i].y_m - path[i - 1].y_m);
@@ -31,31 +31,32 @@ vo::WayPoint point_along(const std::vector<vo::WayPoint>& path, double metres) {
 
 /// Moves and turns a path so that it begins where `truth` does, and in the same direction over the first
 /// metres.
-std::vector<vo::WayPoint> laid_on(std::vector<vo::WayPoint> path, const std::vector<vo::WayPoint>& truth) {
+std::vector<place::WayPoint> laid_on(std::vector<place::WayPoint> path,
+                                     const std::vector<place::WayPoint>& truth) {
   constexpr double kFirst_m = 5;
-  const auto direction = [](const std::vector<vo::WayPoint>& points) {
-    const vo::WayPoint at = point_along(points, kFirst_m);
+  const auto direction = [](const std::vector<place::WayPoint>& points) {
+    const place::WayPoint at = point_along(points, kFirst_m);
     return std::atan2(at.y_m - points.front().y_m, at.x_m - points.front().x_m);
   };
   const double turn = direction(truth) - direction(path);
   const double cosine = std::cos(turn), sine = std::sin(turn);
-  const vo::WayPoint from = path.front(), to = truth.front();
-  for (vo::WayPoint& point : path) {
+  const place::WayPoint from = path.front(), to = truth.front();
+  for (place::WayPoint& point : path) {
     const double x = point.x_m - from.x_m, y = point.y_m - from.y_m;
     point = {to.x_m + cosine * x - sine * y, to.y_m + sine * x + cosine * y};
   }
   return path;
 }
 
-std::vector<vo::WayPoint> points_of(const vo::Trajectory& trajectory) {
-  std::vector<vo::WayPoint> points;
+std::vector<place::WayPoint> points_of(const vo::Trajectory& trajectory) {
+  std::vector<place::WayPoint> points;
   for (const vo::TimedPose& pose : trajectory) points.push_back({pose.pose.x_m, pose.pose.y_m});
   return points;
 }
 
-Series path_series(const std::vector<vo::WayPoint>& points, std::string name, std::string colour) {
+Series path_series(const std::vector<place::WayPoint>& points, std::string name, std::string colour) {
   Series series{.name = std::move(name), .colour = std::move(colour)};
-  for (const vo::WayPoint& point : points) {
+  for (const place::WayPoint& point : points) {
     series.x.push_back(point.x_m);
     series.y.push_back(point.y_m);
   }
@@ -77,13 +78,13 @@ Backdrop map_backdrop(const OdometryTruth& truth) {
 }
 
 /// The mean of some measure with its standard deviation above and below, at each distance that was measured.
-std::optional<Chart> error_chart(const OdometryView& walk, Chart chart, double vo::OdometryErrors::*mean,
-                                 double vo::OdometryErrors::*sd) {
+std::optional<Chart> error_chart(const OdometryView& walk, Chart chart, double place::OdometryErrors::*mean,
+                                 double place::OdometryErrors::*sd) {
   if (walk.truth == nullptr) return {};
   Series middle{.name = "mean", .colour = "blue", .mark = "circle"};
   Series above{.name = "mean plus one standard deviation", .colour = "grey", .dash = {5, 4}};
   Series below{.name = "mean minus one", .colour = "grey", .dash = {2, 4}};
-  for (const vo::OdometryErrors& errors : walk.truth->evaluation.errors) {
+  for (const place::OdometryErrors& errors : walk.truth->evaluation.errors) {
     if (errors.count == 0) continue;
     for (const auto& [series, sign] : {std::pair{&middle, 0}, std::pair{&above, 1}, std::pair{&below, -1}}) {
       series->x.push_back(errors.at_m);
@@ -107,9 +108,9 @@ std::optional<Chart> trajectory_chart(const OdometryView& walk) {
               .equal = true,
               .zoomable = true,
               .size = "tall"};
-  std::vector<vo::WayPoint> path = points_of(walk.trajectory);
+  std::vector<place::WayPoint> path = points_of(walk.trajectory);
   if (walk.truth != nullptr) {
-    const std::vector<vo::WayPoint> truth =
+    const std::vector<place::WayPoint> truth =
         walk.truth->way.empty() ? points_of(walk.truth->poses) : walk.truth->way;
     path = laid_on(std::move(path), truth);
     chart.series.push_back(path_series(truth, "truth", "green"));
@@ -128,13 +129,13 @@ std::optional<Chart> trajectory_chart(const OdometryView& walk) {
 
 std::optional<Chart> position_error_chart(const OdometryView& walk) {
   return error_chart(walk, {.title = "position error against distance", .y_title = "position error, m"},
-                     &vo::OdometryErrors::euclidean_mean_m, &vo::OdometryErrors::euclidean_sd_m);
+                     &place::OdometryErrors::euclidean_mean_m, &place::OdometryErrors::euclidean_sd_m);
 }
 
 std::optional<Chart> heading_error_chart(const OdometryView& walk) {
   return error_chart(walk,
                      {.title = "heading error against distance", .y_title = "heading error, deg clockwise"},
-                     &vo::OdometryErrors::heading_mean_deg, &vo::OdometryErrors::heading_sd_deg);
+                     &place::OdometryErrors::heading_mean_deg, &place::OdometryErrors::heading_sd_deg);
 }
 
 }  // namespace retrace

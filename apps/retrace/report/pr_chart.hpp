@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <place/evaluation.hpp>
+#include <place/evaluation/evaluation.hpp>
 
 namespace retrace {
 

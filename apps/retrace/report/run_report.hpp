@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <place/evaluation.hpp>
-#include <place/ground_truth.hpp>
+#include <place/evaluation/evaluation.hpp>
+#include <place/evaluation/ground_truth.hpp>
 #include <vo/base/trajectory.hpp>
 
 namespace retrace {

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "place/candidates.hpp"
-#include "place/contrast_enhancement.hpp"
-#include "place/match.hpp"
-#include "place/openseqslam.hpp"
-#include "place/pose_fixes.hpp"
-#include "place/route_database.hpp"
-#include "place/streamed_search.hpp"
-#include "place/walk_sampling.hpp"
+#include "place/match/candidates.hpp"
+#include "place/match/contrast_enhancement.hpp"
+#include "place/match/match.hpp"
+#include "place/match/openseqslam.hpp"
+#include "place/match/streamed_search.hpp"
+#include "place/route/route_database.hpp"
+#include "place/route/walk_sampling.hpp"
+#include "place/trajectory/pose_fixes.hpp"
 
 #include <optional>
 #include <vector>

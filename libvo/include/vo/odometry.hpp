@@ -3,7 +3,6 @@
 #include "vo/base/progress.hpp"
 #include "vo/gait/activity.hpp"
 #include "vo/gait/dead_reckoning.hpp"
-#include "vo/gait/feature_tracker.hpp"
 #include "vo/gait/gait_signal.hpp"
 #include "vo/gait/step_length.hpp"
 #include "vo/gait/step_reading.hpp"
@@ -13,9 +12,10 @@
 #include "vo/io/frame_source.hpp"
 #include "vo/motion/alignment_error.hpp"
 #include "vo/motion/displacement_track.hpp"
-#include "vo/motion/monocular_vo.hpp"
 #include "vo/motion/motion_model.hpp"
 #include "vo/motion/standing.hpp"
+#include "vo/tracks/feature_tracker.hpp"
+#include "vo/visual_odometry/monocular_vo.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "vo/motion/height_by_steps.hpp"
 
-#include "vo/motion/ground_height.hpp"
+#include "vo/visual_odometry/ground_height.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "vo/base/camera.hpp"
 #include "vo/gait/heading.hpp"
 #include "vo/gait/lowpass.hpp"
 #include "vo/gait/picture_motion.hpp"
-#include "vo/gait/tracking_window.hpp"
+#include "vo/geometry/camera.hpp"
+#include "vo/tracks/tracking_window.hpp"
 
 #include <cstddef>
 #include <optional>

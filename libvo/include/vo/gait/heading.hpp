@@ -1,7 +1,7 @@
 #pragma once
 
-#include "vo/base/camera.hpp"
-#include "vo/gait/tracking_window.hpp"
+#include "vo/geometry/camera.hpp"
+#include "vo/tracks/tracking_window.hpp"
 
 #include <optional>
 #include <span>

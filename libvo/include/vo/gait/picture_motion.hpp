@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vo/gait/tracking_window.hpp"
+#include "vo/tracks/tracking_window.hpp"
 
 #include <optional>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vo/base/camera.hpp"
+#include "vo/geometry/camera.hpp"
 
 #include <filesystem>
 

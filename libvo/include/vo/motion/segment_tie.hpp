@@ -1,9 +1,9 @@
 #pragma once
 
 #include "vo/base/frame_range.hpp"
-#include "vo/motion/ground_height.hpp"
 #include "vo/motion/learned_relation.hpp"
 #include "vo/motion/motion_evidence.hpp"
+#include "vo/visual_odometry/ground_height.hpp"
 
 #include <optional>
 #include <span>

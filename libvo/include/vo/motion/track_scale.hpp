@@ -1,8 +1,8 @@
 #pragma once
 
-#include "vo/motion/ground_height.hpp"
 #include "vo/motion/motion_evidence.hpp"
 #include "vo/motion/segment_tie.hpp"
+#include "vo/visual_odometry/ground_height.hpp"
 
 #include <optional>
 #include <span>

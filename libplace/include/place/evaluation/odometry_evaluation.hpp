@@ -1,0 +1,80 @@
+#pragma once
+
+#include "vo/base/trajectory.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace place {
+
+/// Where a walker truly was, and where the odometry has him at the same moment.
+struct PosePair {
+  double distance_m = 0;  ///< truly travelled since the beginning
+  vo::Pose2 truth;
+  vo::Pose2 estimate;
+};
+
+/// Pairs poses of one time, for a truth with times. `truth` and `distance_m`: one per moment; moments at
+/// which the estimate has none, or by which no distance was gained, are left out. Throws
+/// `std::invalid_argument` for another number of distances. O(n log n).
+std::vector<PosePair> pair_by_time(const vo::Trajectory& truth, std::span<const double> distance_m,
+                                   const vo::Trajectory& estimate);
+
+/// A point of a way drawn on a map, metres.
+struct WayPoint {
+  double x_m = 0;
+  double y_m = 0;
+};
+
+/// Pairs poses of one share of the whole way, for a truth without times: the estimate at 30 % of its length
+/// belongs where 30 % of the true way are done. So both begin and end together, as the recording does, and an
+/// estimate that is too long is seen to be so, as it would be by time. The true heading is that of the leg.
+/// One pair for each pose of the estimate by which it gets on. Throws `std::invalid_argument` for a way
+/// without length; an estimate without length has no pairs. O(n).
+std::vector<PosePair> pair_by_share(std::span<const WayPoint> way, const vo::Trajectory& estimate);
+
+/// Settings of `evaluate_odometry`.
+struct OdometryEvaluationOptions {
+  std::size_t segments = 25;                         ///< measurements [PVO 5.2]
+  double segment_m = 100;                            ///< their length [PVO 5.2: 50 indoors, 100 outdoors]
+  std::vector<double> at_m{5, 10, 25, 50, 75, 100};  ///< where on them errors are measured [PVO 5.2]
+  std::uint64_t seed = 1;                            ///< of the random starts
+};
+
+/// The errors at one distance from the start of a segment.
+struct OdometryErrors {
+  double at_m = 0;
+  std::size_t count = 0;  ///< segments that reach so far; without any, the rest is 0
+  double euclidean_mean_m = 0, euclidean_sd_m = 0;
+  double heading_mean_deg = 0, heading_sd_deg = 0;  ///< estimate minus truth, clockwise: negative drifts left
+  double heading_abs_mean_deg = 0;
+};
+
+struct OdometryEvaluation {
+  double distance_m = 0;               ///< of the pairs
+  double segment_m = 0;                ///< as asked for, or the longest distance of `at_m` that the walk has
+  std::vector<OdometryErrors> errors;  ///< one for each of `at_m`, in order
+};
+
+/// PVO's accuracy of a trajectory (section 5.2): random segments, at whose start the estimate is put where
+/// and as the walker truly was, and errors at set distances from there.
+///
+/// Distances are those truly travelled, not the estimate's, so that a step too long is an error of position.
+/// Starts are uniform over all places from which a whole segment is left. On a walk shorter than a segment
+/// the segment is cut to the longest of `at_m` that fits. Points beyond a segment have count 0, as all have
+/// on a walk shorter than all of them. Between pairs, poses are linear in distance. sd is the standard
+/// deviation of the sample (n - 1), 0 for a single one.
+///
+/// `pairs`: by strictly increasing distance, as from the functions above. Throws `std::invalid_argument` if
+/// they are not, for no or unordered `at_m`, or one or a segment_m not above 0. The same seed gives the same
+/// segments. O(segments * log n).
+OdometryEvaluation evaluate_odometry(std::span<const PosePair> pairs,
+                                     const OdometryEvaluationOptions& options = {});
+
+/// The error of a number of steps: percent of the true number, 0 or more (PVO 5.4's mean absolute error).
+/// Throws `std::invalid_argument` if the true number is 0.
+double step_error_pct(std::size_t estimated, std::size_t truth);
+
+}  // namespace place

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "place/trajectory/drift_correction.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace place {
+
+/// Settings of `FixedLagCorrector`.
+struct FixedLagOptions {
+  DriftCorrectionOptions drift;
+  std::size_t lag = 60;  ///< nodes that are still open to change, 2 or more; half a minute of walking
+};
+
+/// `correct_drift` for a walk that is still going on: the same graph over the last nodes only. What the nodes
+/// that left it, and their fixes, say of the oldest one left stays as a prior (their marginal, a Schur
+/// complement of 6 x 6). As nothing is known before matches agree on where the walk is, all nodes until then
+/// are kept.
+class FixedLagCorrector {
+ public:
+  /// Throws `std::invalid_argument` for options that are not valid.
+  explicit FixedLagCorrector(const FixedLagOptions& options = {});
+  ~FixedLagCorrector();
+  FixedLagCorrector(FixedLagCorrector&&) noexcept;
+  FixedLagCorrector& operator=(FixedLagCorrector&&) noexcept;
+
+  /// The next node of the walk and, where it was recognised, its fix, whose node is not looked at. Returns
+  /// the poses that are final now: none, one, or a walk's whole beginning once it is known where it is.
+  /// Solves where there is a fix: O(lag).
+  std::vector<UncertainPose> push(const vo::TimedPose& odometry, const std::optional<PoseFix>& fix);
+
+  /// Where the walker is now; none before matches agree. O(lag).
+  [[nodiscard]] std::optional<UncertainPose> latest() const;
+
+  /// The poses not yet returned; none if matches never agreed. Only the destructor may follow.
+  std::vector<UncertainPose> finish();
+
+ private:
+  struct Window;
+  std::unique_ptr<Window> window_;
+};
+
+}  // namespace place

@@ -1,0 +1,190 @@
+#include "place/match/contrast_enhancement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include <vo/base/parallel.hpp>
+
+namespace place {
+namespace {
+
+/// Below this share of the mean square, a deviation is rounding and taken as none (float inputs carry 24
+/// bits).
+constexpr double kRounding = 1e-12;
+
+struct Moments {
+  double sum = 0;
+  double square = 0;
+
+  void add(const Moments& more) {
+    sum += more.sum;
+    square += more.square;
+  }
+  void add(double value) {
+    sum += value;
+    square += value * value;
+  }
+  void remove(double value) {
+    sum -= value;
+    square -= value * value;
+  }
+  /// 1 / deviation over `count` values, with `count - freedom` in the variance; 0 where there is none.
+  [[nodiscard]] double inverse_deviation(double count, double freedom) const {
+    const double spread = square - sum * (sum / count);
+    if (count <= freedom || spread <= kRounding * square) return 0;
+    return 1 / std::sqrt(spread / (count - freedom));
+  }
+};
+
+/// Eight sums of every eighth value, which compilers turn into vectors, and those added up.
+Moments moments_of(std::span<const float> values) {
+  constexpr std::size_t kLanes = 8;
+  std::array<double, kLanes> sum{}, square{};
+  const auto add = [&](std::size_t k, double value) {
+    sum[k] += value;
+    square[k] += value * value;
+  };
+  const std::size_t whole = values.size() - values.size() % kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) add(k, values[i + k]);
+  }
+  for (std::size_t i = whole; i < values.size(); ++i) add(i - whole, values[i]);
+  return {std::accumulate(sum.begin(), sum.end(), 0.0), std::accumulate(square.begin(), square.end(), 0.0)};
+}
+
+/// A row that begins at a multiple of kAlign. Running sums begin anew at every such multiple, so
+/// that a value does not depend on where the row begins.
+void enhance_locally(std::span<float> row, std::size_t half) {
+  const std::vector<float> raw(row.begin(), row.end());
+  Moments window;
+  std::size_t first = 0, last = 0;  // the window is [first, last)
+  for (std::size_t r = 0; r < raw.size(); ++r) {
+    if (r % ContrastEnhancer::kAlign == 0) {
+      window = {};
+      first = last = r - std::min(r, half);
+    }
+    while (last < std::min(raw.size(), r + half + 1)) window.add(raw[last++]);
+    while (first + half < r) window.remove(raw[first++]);
+    const auto count = static_cast<double>(last - first);
+    row[r] = static_cast<float>((raw[r] - window.sum / count) * window.inverse_deviation(count, 1));
+  }
+}
+
+float standard_score(float value, double mean, double inverse_deviation) {
+  return static_cast<float>((value - mean) * inverse_deviation);
+}
+
+}  // namespace
+
+ContrastEnhancer::ContrastEnhancer(std::size_t queries, std::size_t references,
+                                   const ContrastEnhancementOptions& options)
+    : queries_(queries), references_(references), options_(options) {
+  if (options.window < 2) throw std::invalid_argument("enhance_contrast: window must be >= 2");
+  if (options.method != Enhancement::kStandardise) return;
+  mean_.resize(queries);
+  inverse_deviation_.resize(queries);
+}
+
+std::size_t ContrastEnhancer::margin() const {
+  if (options_.method != Enhancement::kLocal) return 0;
+  return (static_cast<std::size_t>(options_.window / 2) + kAlign - 1) / kAlign * kAlign;
+}
+
+void ContrastEnhancer::survey(const ConstCosts& costs, std::size_t count) {
+  const std::size_t first = surveyed_, past = first + count;
+  if (past > references_ || (past < references_ && count % kPart != 0) || costs.queries != queries_ ||
+      costs.first_reference + std::min(first, margin()) != first ||
+      costs.first_reference + costs.references != std::min(references_, past + margin())) {
+    throw std::invalid_argument(
+        "ContrastEnhancer: parts of the reference by all queries, in order, expected");
+  }
+  surveyed_ = past;
+  const std::size_t before = first - costs.first_reference;
+  if (options_.method == Enhancement::kStandardise) {
+    vo::parallel_for(queries_, [&](std::size_t q) {
+      Moments moments{mean_[q], inverse_deviation_[q]};
+      for (std::size_t r = 0; r < count; r += kPart)
+        moments.add(moments_of(costs.row(q).subspan(r, std::min(kPart, count - r))));
+      mean_[q] = moments.sum;
+      inverse_deviation_[q] = moments.square;
+      if (past < references_) return;
+      mean_[q] = moments.sum / static_cast<double>(references_);
+      inverse_deviation_[q] = moments.inverse_deviation(static_cast<double>(references_), 0);
+    });
+    return;
+  }
+  std::vector<CostRange> ranges(queries_);
+  vo::parallel_for(queries_, [&](std::size_t q) {
+    if (options_.method == Enhancement::kNone) {
+      ranges[q] = range_of(costs.row(q).subspan(before, count));
+    } else {
+      std::vector<float> enhanced(costs.row(q).begin(), costs.row(q).end());
+      enhance_locally(enhanced, static_cast<std::size_t>(options_.window / 2));
+      ranges[q] = range_of(std::span(enhanced).subspan(before, count));
+    }
+  });
+  for (const CostRange& range : ranges) {
+    sum_ += range.centre * static_cast<double>(count);
+    least_ = std::min(least_, range.centre - range.largest);
+    most_ = std::max(most_, range.centre + range.largest);
+  }
+}
+
+void ContrastEnhancer::enhance(const Costs& costs) const {
+  if (costs.queries != queries_ || costs.first_reference % kAlign != 0 || surveyed_ != references_) {
+    throw std::invalid_argument("ContrastEnhancer: a survey of all, and an aligned part, expected");
+  }
+  if (options_.method == Enhancement::kNone) return;
+  if (options_.method == Enhancement::kLocal) {
+    vo::parallel_for(queries_, [&](std::size_t q) {
+      enhance_locally(costs.row(q), static_cast<std::size_t>(options_.window / 2));
+    });
+    return;
+  }
+  constexpr std::size_t kStretch = 128;  // references whose costs with some thousand queries fit a cache
+  vo::parallel_for((costs.references + kStretch - 1) / kStretch, [&](std::size_t i) {
+    const std::size_t begin = i * kStretch, count = std::min(kStretch, costs.references - begin);
+    std::array<double, kStretch> mean{}, inverse{};  // first the sums and the sums of squares
+    for (std::size_t q = 0; q < queries_; ++q) {
+      float* row = costs.row(q).data() + begin;
+      for (std::size_t r = 0; r < count; ++r) {
+        row[r] = standard_score(row[r], mean_[q], inverse_deviation_[q]);
+        const double score = row[r];
+        mean[r] += score;
+        inverse[r] += score * score;
+      }
+    }
+    const auto queries = static_cast<double>(queries_);
+    for (std::size_t r = 0; r < count; ++r) {
+      const Moments moments{mean[r], inverse[r]};
+      mean[r] = moments.sum / queries;
+      inverse[r] = moments.inverse_deviation(queries, 0);
+    }
+    for (std::size_t q = 0; q < queries_; ++q) {
+      float* row = costs.row(q).data() + begin;
+      for (std::size_t r = 0; r < count; ++r) row[r] = standard_score(row[r], mean[r], inverse[r]);
+    }
+  });
+}
+
+CostRange ContrastEnhancer::range() const {
+  if (queries_ == 0 || references_ == 0) return {};
+  if (options_.method == Enhancement::kStandardise) {
+    // No value of n can be further than sqrt(n - 1) deviations from their mean; one more for rounding.
+    return {.centre = 0, .largest = std::sqrt(static_cast<double>(queries_))};
+  }
+  const double centre = sum_ / (static_cast<double>(queries_) * static_cast<double>(references_));
+  return {.centre = centre, .largest = std::max(most_ - centre, centre - least_)};
+}
+
+void enhance_contrast(CostMatrix& costs, const ContrastEnhancementOptions& options) {
+  ContrastEnhancer enhancer(costs.queries, costs.references, options);
+  if (costs.values.empty()) return;
+  enhancer.survey(block_of(costs), costs.references);
+  enhancer.enhance(block_of(costs));
+}
+
+}  // namespace place

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "place/match/cost_matrix.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vo/base/large_memory.hpp>
+
+namespace place {
+
+/// Costs that are asked for twice: as many as there is room for are kept, the others are made again.
+///
+/// Costs are whole multiples of a unit, so what a row has above its least in a part fits 16 bits: at most two
+/// deviations a pixel for images of mean 0 and deviation 1, 65,536 units for 2048 pixels. Exact; a part of
+/// which that is not so (larger images may have one) is not kept.
+class CostCache {
+ public:
+  /// Keeps `bytes` at most. `source` is kept by reference.
+  CostCache(const CostSource& source, std::size_t bytes);
+
+  /// Keeps a part that `source` gave, of all queries and of references that were not kept yet. In parallel.
+  void keep(const ConstCosts& part);
+
+  /// Writes the costs of all queries and any references, kept or not. In parallel.
+  void fetch(const Costs& block) const;
+
+ private:
+  struct Part {
+    std::size_t first, count;
+    std::vector<std::uint32_t> least;  ///< of each row, in units
+    const std::uint16_t* above;        ///< of each row its least, row by row; in `memory_`
+  };
+
+  const CostSource& source_;
+  std::size_t size_, used_ = 0;  ///< of `memory_`, costs
+  vo::LargeArray<std::uint16_t> memory_;
+  std::vector<Part> parts_;  ///< by increasing reference
+};
+
+}  // namespace place

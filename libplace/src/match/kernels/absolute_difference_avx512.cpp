@@ -1,0 +1,71 @@
+#include "match/kernels/absolute_difference_tiles.hpp"
+
+#if defined(__x86_64__)
+
+#include <immintrin.h>
+
+namespace place::kernels {
+namespace {
+
+struct Avx512 {
+  using Bytes = __m512i;
+  using Sums = __m512i;  // eight of 64 bits
+  static constexpr std::size_t kBytes = 64;
+  static constexpr std::size_t kTileQueries = 6, kTileReferences = 4;  // 30 of 32 registers
+
+  static Bytes load(const std::uint8_t* from) { return _mm512_loadu_si512(from); }
+  static Bytes load_last(const std::uint8_t* end, std::size_t count) {
+    return _mm512_maskz_loadu_epi8((__mmask64{1} << count) - 1, end - count);
+  }
+  static void keep_in_register(Bytes& bytes) { asm("" : "+v"(bytes)); }
+  static Sums zero() { return _mm512_setzero_si512(); }
+  static Sums add(Sums sums, Bytes a, Bytes b) { return _mm512_add_epi64(sums, _mm512_sad_epu8(a, b)); }
+  static std::int32_t total(Sums sums) { return static_cast<std::int32_t>(_mm512_reduce_add_epi64(sums)); }
+
+  template <std::size_t kQueries, std::size_t kReferences>
+  static void store(const Sums (&sums)[kQueries][kReferences], const ScaledSums& to) {
+    if constexpr (kQueries == 6 && kReferences == 4) {
+      const Sums last = add_parts(interleaved(sums[4]), interleaved(sums[5]));
+      const Sums first = add_parts(add_parts(interleaved(sums[0]), interleaved(sums[1])),
+                                   add_parts(interleaved(sums[2]), interleaved(sums[3])));
+      store_rows<4>(first, to.values, to);
+      store_rows<2>(add_parts(last, last), to.values + 4 * to.stride, to);
+    } else {
+      store_each<Avx512>(sums, to);
+    }
+  }
+
+ private:
+  /// Parts of 128 bits, scaled, to a row each.
+  template <std::size_t kRows>
+  static void store_rows(Sums totals, float* row, const ScaledSums& to) {
+    const __m512 scaled = _mm512_mul_ps(_mm512_cvtepi32_ps(totals), _mm512_set1_ps(to.scale));
+    _mm_storeu_ps(row, _mm512_castps512_ps128(scaled));
+    _mm_storeu_ps(row + to.stride, _mm512_extractf32x4_ps(scaled, 1));
+    if constexpr (kRows == 2) return;
+    _mm_storeu_ps(row + 2 * to.stride, _mm512_extractf32x4_ps(scaled, 2));
+    _mm_storeu_ps(row + 3 * to.stride, _mm512_extractf32x4_ps(scaled, 3));
+  }
+  /// Of four registers each of whose 64-bit parts is below 2^32: four parts of 128 bits, in each of them a
+  /// 32-bit sum for every register, which add up to the totals.
+  static Sums interleaved(const Sums (&sums)[4]) {
+    const Sums first = _mm512_add_epi32(sums[0], _mm512_slli_epi64(sums[1], 32));
+    const Sums second = _mm512_add_epi32(sums[2], _mm512_slli_epi64(sums[3], 32));
+    return _mm512_add_epi32(_mm512_unpacklo_epi64(first, second), _mm512_unpackhi_epi64(first, second));
+  }
+  /// Neighbouring parts of 128 bits added: two of `a`, then two of `b`.
+  static Sums add_parts(Sums a, Sums b) {
+    return _mm512_add_epi32(_mm512_shuffle_i64x2(a, b, 0x88), _mm512_shuffle_i64x2(a, b, 0xdd));
+  }
+};
+
+}  // namespace
+
+void absolute_difference_avx512(ByteImages queries, ByteImages references, std::size_t size,
+                                const ScaledSums& sums) {
+  sum_all<Avx512>(queries, references, size, sums);
+}
+
+}  // namespace place::kernels
+
+#endif

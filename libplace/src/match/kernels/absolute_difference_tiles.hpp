@@ -1,0 +1,148 @@
+#pragma once
+
+#include "match/kernels/absolute_difference.hpp"
+
+#include <algorithm>
+#include <utility>
+
+/// The sums of absolute differences, written once over any kind of lanes: tiles of a few queries by a few
+/// references whose sums stay in registers. `Lanes` has
+///   Bytes, Sums                     register types
+///   kBytes                          bytes of a Bytes
+///   kTileQueries, kTileReferences   about as many sums as there are registers for
+///   load(from), load_last(end, n)   kBytes bytes; the n bytes before `end` with zeros for the rest
+///   keep_in_register(bytes)         else GCC reads them from memory again for each use, at half the speed
+///   zero(), add(sums, a, b)
+///   total(sums)                     below 2^31
+///   store(sums, to)                 a tile's totals, of Sums[queries][references], scaled
+/// Included only by the sources of `kernels`.
+namespace place::kernels {
+
+inline constexpr std::size_t kLine = 64;  ///< bytes of a cache line
+
+/// Where the images of a tile begin.
+struct Tile {
+  const std::uint8_t* queries;
+  const std::uint8_t* references;
+  std::size_t size;
+  ScaledSums sums;
+  const std::uint8_t* ahead;  ///< 2 * size bytes to fetch into the first-level cache meanwhile
+};
+
+/// body(0), body(1) ... body(kCount - 1) one after the other: of arrays that are indexed so, every element
+/// gets a register, where a loop leaves them in memory.
+template <std::size_t kCount, class Body>
+[[gnu::always_inline]] inline void unrolled(const Body& body) {
+  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) __attribute__((always_inline)) {
+    (body(kIndex), ...);
+  }
+  (std::make_index_sequence<kCount>());
+}
+
+/// The totals one by one.
+template <class Lanes, std::size_t kQueries, std::size_t kReferences>
+[[gnu::always_inline]] inline void store_each(const typename Lanes::Sums (&sums)[kQueries][kReferences],
+                                              const ScaledSums& to) {
+  unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
+    unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) {
+      to.values[i * to.stride + j] = static_cast<float>(Lanes::total(sums[i][j])) * to.scale;
+    });
+  });
+}
+
+/// Holds kQueries * kReferences sums, kReferences bytes and two more in registers. Not inlined: within a
+/// larger function compilers run out of registers and spill sums.
+template <class Lanes, std::size_t kQueries, std::size_t kReferences>
+[[gnu::noinline]] void sum_tile(const Tile& tile) {
+  typename Lanes::Sums sums[kQueries][kReferences];
+  unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
+    unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) { sums[i][j] = Lanes::zero(); });
+  });
+  const std::size_t size = tile.size;
+  const auto add_all = [&](const auto& load) __attribute__((always_inline)) {
+    typename Lanes::Bytes references[kReferences];
+    unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) {
+      references[j] = load(tile.references + j * size);
+    });
+    unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
+      typename Lanes::Bytes query = load(tile.queries + i * size);
+      Lanes::keep_in_register(query);
+      unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) {
+        sums[i][j] = Lanes::add(sums[i][j], references[j], query);
+      });
+    });
+  };
+  const std::size_t whole = size - size % Lanes::kBytes;
+  for (std::size_t k = 0; k < whole; k += Lanes::kBytes) {
+    for (std::size_t line = 0; line < 2 * Lanes::kBytes; line += kLine)
+      __builtin_prefetch(tile.ahead + 2 * k + line, 0, 3);
+    add_all([k](const std::uint8_t* image) __attribute__((always_inline)) { return Lanes::load(image + k); });
+  }
+  // Else GCC keeps a copy of every sum in memory for what follows.
+  unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
+    unrolled<kReferences>([&](std::size_t j)
+                              __attribute__((always_inline)) { Lanes::keep_in_register(sums[i][j]); });
+  });
+  if (const std::size_t rest = size - whole; rest > 0) {
+    add_all([ size, rest ](const std::uint8_t* image)
+                __attribute__((always_inline)) { return Lanes::load_last(image + size, rest); });
+  }
+  Lanes::store(sums, tile.sums);
+}
+
+/// Tiles over all queries for `columns` times kReferences references, which stay in the first-level cache
+/// meanwhile. The next queries are fetched into it, and the next references into the second.
+template <class Lanes, std::size_t kReferences>
+inline void sum_panel(Tile panel, std::size_t queries, std::size_t columns) {
+  const std::size_t bytes = columns * kReferences * panel.size;
+  const std::uint8_t* next_references = panel.references + bytes;
+  const std::size_t share = bytes * Lanes::kTileQueries / queries + kLine;
+  std::size_t fetched = 0;
+  const auto take = [&]<std::size_t kQueries>(std::size_t query) {
+    for (const std::size_t end = std::min(bytes, fetched + share); fetched < end; fetched += kLine)
+      __builtin_prefetch(next_references + fetched, 0, 2);
+    Tile tile = panel;
+    tile.queries += query * panel.size;
+    tile.sums.values += query * panel.sums.stride;
+    const std::uint8_t* next_queries = tile.queries + kQueries * panel.size;
+    for (std::size_t column = 0; column < columns; ++column) {
+      tile.ahead = 2 * column < kQueries ? next_queries + 2 * column * panel.size : tile.queries;
+      sum_tile<Lanes, kQueries, kReferences>(tile);
+      tile.references += kReferences * panel.size;
+      tile.sums.values += kReferences;
+    }
+  };
+  constexpr std::size_t kQueries = Lanes::kTileQueries;
+  if (queries < kQueries) {
+    for (std::size_t query = 0; query < queries; ++query) take.template operator()<1>(query);
+    return;
+  }
+  // The last tile may do some queries again.
+  for (std::size_t query = 0; query < queries; query += kQueries)
+    take.template operator()<kQueries>(std::min(query, queries - kQueries));
+}
+
+template <class Lanes>
+inline void sum_all(ByteImages queries, ByteImages references, std::size_t size, const ScaledSums& sums) {
+  if (queries.count == 0) return;
+  if (size < Lanes::kBytes) return absolute_difference_scalar(queries, references, size, sums);
+  constexpr std::size_t kPanelBytes = 1U << 14U;  // beside two tiles' queries in 32 kB or more
+  constexpr std::size_t kReferences = Lanes::kTileReferences;
+  const std::size_t most = std::max<std::size_t>(1, kPanelBytes / (kReferences * size));
+  std::size_t j = 0;
+  const auto panel = [&] {
+    return Tile{queries.bytes,
+                references.bytes + j * size,
+                size,
+                {sums.scale, sums.values + j, sums.stride},
+                queries.bytes};
+  };
+  while (j + kReferences <= references.count) {
+    const std::size_t columns = std::min(most, (references.count - j) / kReferences);
+    sum_panel<Lanes, kReferences>(panel(), queries.count, columns);
+    j += columns * kReferences;
+  }
+  if (j < references.count) sum_panel<Lanes, 1>(panel(), queries.count, references.count - j);
+}
+
+}  // namespace place::kernels

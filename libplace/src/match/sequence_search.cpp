@@ -1,0 +1,15 @@
+#include "place/match/sequence_search.hpp"
+
+#include "place/match/sequence_searcher.hpp"
+
+namespace place {
+
+std::vector<SequenceMatch> search_sequences(const CostMatrix& enhanced,
+                                            const SequenceSearchOptions& options) {
+  // Enhanced costs are centred at 0 up to rounding; costs that are not enhanced are centred here.
+  SequenceSearcher searcher(enhanced.queries, enhanced.references, range_of(enhanced.values), options);
+  searcher.push(block_of(enhanced), enhanced.references);
+  return searcher.finish();
+}
+
+}  // namespace place

@@ -1,0 +1,65 @@
+#include "place/route/relative_scale.hpp"
+
+#include "place/match/candidates.hpp"
+#include "place/match/contrast_enhancement.hpp"
+#include "place/match/cost_matrix.hpp"
+#include "place/match/sequence_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <vector>
+
+namespace place {
+namespace {
+
+/// Mean cost of every query's best line of one slope.
+double mean_best_cost(const CostMatrix& enhanced, double slope, int length) {
+  const SequenceSearchOptions options{.length = length, .v_min = slope, .v_max = slope};
+  double sum = 0;
+  for (const SequenceMatch& match : search_sequences(enhanced, options)) sum += match.cost;
+  return sum / static_cast<double>(enhanced.queries);
+}
+
+}  // namespace
+
+double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
+                      const RelativeScaleOptions& options) {
+  if (!(options.largest > 1) || options.steps < 3 || options.length < 2) {
+    throw std::invalid_argument("relative_scale: largest > 1, steps >= 3 and length >= 2 expected");
+  }
+  if (2 * std::min(query.size(), reference.size()) < 3 * static_cast<std::size_t>(options.length)) return 1;
+
+  if (reference.size() > options.largest_reference) {
+    const auto likely = candidates(query, reference);
+    if (likely.size() < reference.size()) {
+      RelativeScaleOptions of_likely = options;
+      of_likely.largest_reference = likely.size();
+      return relative_scale(query, vo::select(reference, likely), of_likely);
+    }
+  }
+  CostMatrix enhanced = cost_matrix(query, reference);
+  enhance_contrast(enhanced, {.method = Enhancement::kStandardise});
+  const double step = 2 * std::log(options.largest) / (options.steps - 1);
+  const auto log_scale = [&](std::ptrdiff_t i) {
+    return -std::log(options.largest) + static_cast<double>(i) * step;
+  };
+  std::vector<double> cost;
+  for (int i = 0; i < options.steps; ++i)
+    cost.push_back(mean_best_cost(enhanced, std::exp(log_scale(i)), options.length));
+
+  std::vector<double> judged = cost;
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const double away = log_scale(static_cast<std::ptrdiff_t>(i));
+    judged[i] += options.prior_weight * away * away;
+  }
+  // Slopes that round to the same line cost the same: the middle of the stretch that the best one lies in.
+  const auto best = cost.begin() + (std::ranges::min_element(judged) - judged.begin());
+  const auto differs = [&](double c) { return c != *best; };
+  const auto last = std::find_if(best, cost.end(), differs) - 1;
+  const auto first = std::find_if(std::make_reverse_iterator(best), cost.rend(), differs).base();
+  return std::exp((log_scale(first - cost.begin()) + log_scale(last - cost.begin())) / 2);
+}
+
+}  // namespace place

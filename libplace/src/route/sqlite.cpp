@@ -1,0 +1,139 @@
+#include "route/sqlite.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <vo/base/error.hpp>
+
+namespace place::sqlite {
+namespace {
+
+[[noreturn]] void fail(sqlite3* database, const std::string& path, int code) {
+  switch (code & 0xFF) {
+    case SQLITE_NOTADB:
+      throw vo::Error(path, "is no route database", "a file written by `retrace build`");
+    case SQLITE_CORRUPT:
+      throw vo::Error(path, "is damaged", "a whole route database; build it again");
+    default:
+      throw vo::Error(path, fmt::format("SQLite: {}", database != nullptr ? sqlite3_errmsg(database)
+                                                                          : sqlite3_errstr(code)));
+  }
+}
+
+}  // namespace
+
+void Statement::Finalise::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+Statement::Statement(sqlite3* database, std::string path, std::string_view sql)
+    : database_(database), path_(std::move(path)) {
+  sqlite3_stmt* statement = nullptr;
+  const int code =
+      sqlite3_prepare_v2(database_, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+  statement_.reset(statement);
+  check(code);
+}
+
+void Statement::check(int code) {
+  if (code != SQLITE_OK && code != SQLITE_ROW && code != SQLITE_DONE) fail(database_, path_, code);
+}
+
+Statement& Statement::bind(std::int64_t value) {
+  check(sqlite3_bind_int64(statement_.get(), next_parameter_++, value));
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  check(sqlite3_bind_double(statement_.get(), next_parameter_++, value));
+  return *this;
+}
+
+Statement& Statement::bind(const std::optional<double>& value) {
+  if (value) return bind(*value);
+  check(sqlite3_bind_null(statement_.get(), next_parameter_++));
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view value) {
+  check(sqlite3_bind_text(statement_.get(), next_parameter_++, value.data(), static_cast<int>(value.size()),
+                          SQLITE_TRANSIENT));
+  return *this;
+}
+
+Statement& Statement::bind(std::span<const std::uint8_t> value) {
+  check(
+      sqlite3_bind_blob64(statement_.get(), next_parameter_++, value.data(), value.size(), SQLITE_TRANSIENT));
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  check(code);
+  next_column_ = 0;
+  return code == SQLITE_ROW;
+}
+
+void Statement::execute() {
+  while (step()) {
+  }
+  check(sqlite3_reset(statement_.get()));
+  check(sqlite3_clear_bindings(statement_.get()));
+  next_parameter_ = 1;
+}
+
+std::int64_t Statement::integer() {
+  return sqlite3_column_int64(statement_.get(), next_column_++);
+}
+
+double Statement::real() {
+  return sqlite3_column_double(statement_.get(), next_column_++);
+}
+
+std::optional<double> Statement::optional_real() {
+  if (sqlite3_column_type(statement_.get(), next_column_) == SQLITE_NULL) {
+    ++next_column_;
+    return std::nullopt;
+  }
+  return real();
+}
+
+std::string Statement::text() {
+  const int column = next_column_++;
+  const unsigned char* value = sqlite3_column_text(statement_.get(), column);
+  if (value == nullptr) return {};
+  return {reinterpret_cast<const char*>(value),
+          static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+std::span<const std::uint8_t> Statement::blob() {
+  const int column = next_column_++;
+  const auto* value = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
+  return {value, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+void Database::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
+
+Database::Database(const std::filesystem::path& file, Mode mode, std::string shown_path)
+    : path_(std::move(shown_path)) {
+  const int flags =
+      mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  sqlite3* database = nullptr;
+  const int code = sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
+  database_.reset(database);
+  if (code != SQLITE_OK) fail(database, path_, code);
+  sqlite3_extended_result_codes(database, 0);
+}
+
+Statement Database::prepare(std::string_view sql) const {
+  return {database_.get(), path_, sql};
+}
+
+void Database::run(const std::string& sql) const {
+  const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) fail(database_.get(), path_, code);
+}
+
+}  // namespace place::sqlite

@@ -1,0 +1,114 @@
+#include "place/route/walk_sampling.hpp"
+
+#include "place/route/resampling.hpp"
+
+#include <filesystem>
+#include <numeric>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <vo/base/error.hpp>
+
+namespace place {
+namespace {
+
+/// What tells that a walk's frames are too far apart for its motion to be learned well.
+std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionModel& model) {
+  constexpr double kFewSeparations = 5;
+  if (model.separation.back() >= kFewSeparations) return {};
+  return {fmt::format(
+      "{}: frames more than {:.0f} apart have nothing in common, so motion is told poorly; a higher frame "
+      "rate, or --motion none, may do better",
+      walk.source, model.separation.back())};
+}
+
+/// Where one walk is in metres and the other is not (steps were seen in one of them only), both are taken to
+/// have been walked at one mean speed; `relative_scale` mends what is left.
+void to_mean_speed(const Traverse& reference, double duration_s, std::vector<double>& displacement) {
+  const double there = reference.keyframes.back().displacement / reference.duration_s;
+  const double here = std::accumulate(displacement.begin(), displacement.end(), 0.0) / duration_s;
+  if (!(there > 0 && here > 0)) return;
+  for (double& step : displacement) step *= there / here;
+}
+
+}  // namespace
+
+SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
+                        const WalkSamplingOptions& options) {
+  SampledWalk sampled;
+  const Sampling& sampling = options.sampling;
+  if (sampling.motion == vo::MotionSource::kNone) {
+    sampled.frames = every_kth(walk.frames(), static_cast<std::size_t>(sampling.every));
+    sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+    return sampled;
+  }
+  vo::WalkMotionOptions motion_options = options.motion;
+  motion_options.visual.patch = route.patch;
+  vo::WalkMotion motion = vo::walk_motion(walk, sampling.motion, motion_options);
+  if (sampling.motion == vo::MotionSource::kSteps && motion.pedestrian->detection.steps.empty())
+    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
+  if (sampling.spacing_m && !motion.metric)
+    throw vo::Error(walk.source, "shows no steps, so its motion is not in metres",
+                    "no --spacing-m, or a walk on foot");
+  sampled.displacement = vo::displacements(motion);
+  sampled.metric = motion.metric;
+  if (motion.metric) sampled.trajectory = std::move(motion.trajectory);
+  if (reference != nullptr && motion.metric != route.sampling.metric)
+    to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
+  if (motion.visual) {
+    sampled.motion_model = std::move(motion.visual->model);
+    sampled.warnings = motion_warnings(walk, sampled.motion_model);
+  }
+  const double usual = motion.metric && sampling.usual_spacing_m > 0
+                           ? sampling.usual_spacing_m
+                           : sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
+  sampled.unit = sampling.spacing_m.value_or(sampling.unit > 0 ? sampling.unit : usual);
+  sampled.frames = resample(sampled.displacement, sampled.unit);
+  sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  if (reference == nullptr || !options.tie_scale) return sampled;
+
+  sampled.scale =
+      relative_scale(vo::patch_normalise(sampled.thumbnails, route.patch),
+                     vo::patch_normalise(reference->thumbnails, route.patch),
+                     motion.metric && route.sampling.metric ? options.metric_scale : options.relative_scale);
+  for (double& step : sampled.displacement) step *= sampled.scale;
+  sampled.frames = resample(sampled.displacement, sampled.unit);
+  sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  return sampled;
+}
+
+Traverse make_traverse(const std::string& name, const vo::Walk& walk, const SampledWalk& sampled,
+                       const std::optional<Survey>& survey) {
+  if (survey && (survey->pose.size() != walk.frames() || survey->distance_m.size() != walk.frames())) {
+    throw std::invalid_argument("make_traverse: the survey is of another number of frames than the walk");
+  }
+  Traverse traverse;
+  traverse.name = name;
+  traverse.source = std::filesystem::path(walk.source).filename().string();
+  traverse.frames = static_cast<std::int64_t>(walk.frames());
+  traverse.duration_s = walk.time_s.back();
+  traverse.frame_width_px = walk.frame_width_px;
+  traverse.frame_height_px = walk.frame_height_px;
+  if (survey) traverse.pose_source = survey->source;
+  if (survey) traverse.surveyed = survey->surveyed;
+  traverse.motion_model = sampled.motion_model;
+  traverse.thumbnails = sampled.thumbnails;
+  double travelled = 0;
+  std::size_t next = 0;
+  for (const std::size_t frame : sampled.frames) {
+    for (; next <= frame && next < sampled.displacement.size(); ++next)
+      travelled += sampled.displacement[next];
+    Keyframe keyframe;
+    keyframe.frame = static_cast<std::int64_t>(frame);
+    keyframe.time_s = walk.time_s[frame];
+    keyframe.displacement = travelled;
+    if (survey) keyframe.pose = survey->pose[frame];
+    if (survey) keyframe.distance_m = survey->distance_m[frame];
+    if (!walk.previews.empty()) keyframe.preview_jpeg = walk.previews[frame];
+    traverse.keyframes.push_back(std::move(keyframe));
+  }
+  return traverse;
+}
+
+}  // namespace place

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "place/trajectory/drift_correction.hpp"
+#include "trajectory/pose_graph.hpp"
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+/// From a walk and its matches to a pose graph's parts, and back.
+namespace place {
+
+/// Metres along the odometry at each node.
+std::vector<double> travelled_by_node_m(const vo::Trajectory& odometry);
+
+/// From each node to the next.
+std::vector<pose_graph::Motion> motions_of(const vo::Trajectory& odometry);
+
+/// Standard deviation along the path of a match of a score.
+double match_sd_m(double score, const DriftCorrectionOptions& options);
+
+/// The share of its information that a fix does not have in common with those next to it on the way.
+std::vector<pose_graph::Constraint> constraints_of(std::span<const PoseFix> fixes,
+                                                   std::span<const double> travelled_m,
+                                                   const DriftCorrectionOptions& options);
+std::vector<pose_graph::Constraint> constraints_of(std::span<const LoopClosure> loops,
+                                                   std::span<const double> travelled_m,
+                                                   const DriftCorrectionOptions& options);
+
+/// A solved node; `on_map`: with the error that all matches share.
+UncertainPose uncertain_pose(double time_s, const pose_graph::State& state, Eigen::Matrix3d covariance,
+                             bool on_map, const DriftCorrectionOptions& options);
+
+}  // namespace place

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "vo/base/pose3.hpp"
+#include "vo/geometry/camera.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace vo {
+
+/// Where a camera saw a point.
+struct BundleObservation {
+  std::size_t pose = 0;
+  std::size_t point = 0;
+  ImagePoint at;  ///< on the image plane
+};
+
+/// Cameras, points, and who saw what. What is fixed stays as it is.
+struct Bundle {
+  std::vector<Pose3> poses;
+  std::vector<cv::Vec3d> points;
+  std::vector<BundleObservation> observations;
+  std::vector<bool> pose_fixed;   ///< one for each pose, or empty: none
+  std::vector<bool> point_fixed;  ///< one for each point, or empty: none
+  /// Radial distortion that the observations still have: (x, y) is seen at (1 + radial r^2) (x, y); see
+  /// `with_radial`.
+  double radial = 0;
+};
+
+/// Settings of `adjust`.
+struct BundleOptions {
+  double noise = 1e-3;  ///< standard deviation of an observation, on the image plane
+  int max_iterations = 10;
+  double radial_mean = 0;   ///< what is known of the radial distortion beforehand
+  double radial_sigma = 0;  ///< its standard deviation; 0: it stays as it is
+};
+
+/// Moves cameras and points to where they explain the observations best: least squares of the reprojection
+/// error with Cauchy's weights at two standard deviations, by Levenberg and Marquardt (Triggs et al., "Bundle
+/// adjustment, a modern synthesis", 2000). False if the solver failed, and the bundle is as it was. Throws
+/// `std::invalid_argument` for indices out of range or flags of another number. O(observations + points +
+/// poses^3) an iteration; one thread.
+bool adjust(Bundle& bundle, const BundleOptions& options = {});
+
+/// How far each observation is from where its point appears, on the image plane; infinite behind the camera.
+std::vector<double> reprojection_errors(const Bundle& bundle);
+
+}  // namespace vo

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "vo/base/pose3.hpp"
+#include "vo/geometry/camera.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vo {
+
+/// Settings of `resection`.
+struct ResectionOptions {
+  double noise = 1e-3;     ///< standard deviation of a point on the image plane
+  double max_off = 3;      ///< standard deviations beyond which a point does not fit
+  double min_share = 0.5;  ///< of the points that must fit, else it is tried from random samples
+  int seed = 1;            ///< of those
+};
+
+/// Where a camera is that sees known points.
+struct Resection {
+  Pose3 camera;
+  std::vector<bool> fits;   ///< one for each point
+  std::size_t inliers = 0;  ///< how many do
+  /// Covariance of the position as the points that fit tell it, row by row; zero if they do not.
+  cv::Matx33d position_covariance = cv::Matx33d::zeros();
+};
+
+/// The pose from which points of the world are seen where they are: robust least squares from `start`
+/// (`adjust`), and if too few fit, from the best of random samples (P3P within USAC). `points`, `seen`: one
+/// of each, else `std::invalid_argument`. With fewer than 4 points it is `start`, and none fit. O(points).
+Resection resection(std::span<const cv::Vec3d> points, std::span<const ImagePoint> seen, const Pose3& start,
+                    const ResectionOptions& options = {});
+
+/// Standard deviation of a displacement whose ends are both as uncertain as this camera, in the direction
+/// `along` (of any length; none: 0).
+double displacement_sigma(const Resection& found, const cv::Vec3d& along);
+
+}  // namespace vo

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "vo/geometry/camera.hpp"
+#include "vo/motion/displacement_track.hpp"
+#include "vo/tracks/corner_grid.hpp"
+#include "vo/tracks/klt_tracking.hpp"
+#include "vo/visual_odometry/ground_height.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace vo {
+
+/// Settings of `MonocularVo`.
+struct MonocularVoOptions {
+  int width_px = 1280;           ///< wider frames are resized to it
+  double fov_deg = 64.4;         ///< horizontal, of a camera without calibration [PVO 5.3 (6)]
+  std::optional<Camera> camera;  ///< calibrated, of the recording's own size
+  CornerGridOptions corners;
+  KltOptions klt;
+  double noise_px = 0.5;            ///< standard deviation of a followed point's position
+  double min_parallax_deg = 0.4;    ///< between two rays to a landmark before it is placed
+  double start_parallax_deg = 1.0;  ///< the median of the points, before a scene is begun
+  std::size_t window = 8;           ///< keyframes adjusted together
+  double radial_sigma = 0.02;       ///< radial distortion that calibration left over, standard deviation
+  double radial_step = 0.002;       ///< what one adjustment learns of it at the most; 0: nothing
+  double keyframe_travel = 0.08;    ///< travel since the last keyframe, as a share of the median depth
+  double keyframe_share = 0.7;      ///< or landmarks still seen, as a share of those it saw
+  std::size_t min_points = 20;      ///< fewer points followed: lost
+  std::size_t min_landmarks = 8;    ///< fewer landmarks where they should be: lost
+  double min_inlier_share = 0.5;    ///< of the landmarks followed
+  std::size_t min_cells = 4;        ///< of 6 x 4 over the picture, that the landmarks lie in
+  double max_turn_deg = 20;         ///< from one frame to the next
+  double max_speedup = 5;           ///< times the median displacement of the last frames
+  double max_gap_s = 0.5;           ///< seconds without a frame, or a pose, after which a scene is given up
+  GroundHeightOptions ground;
+  int seed = 1;  ///< of random samples
+
+  /// True if every field is in its range; else says in `*error` which is not.
+  [[nodiscard]] bool is_valid(std::string* error) const;
+};
+
+/// Monocular visual odometry (SSS 3.5 uses ORB-SLAM's, Mur-Artal et al. 2015, whose plan this follows, on
+/// points that are followed instead of matched): from pictures to how far the camera moved in each frame, in
+/// a unit that lasts until it is lost.
+///
+/// Corners are followed from frame to frame. The first keyframe and a later one, as soon as the points shift
+/// against each other, give the geometry and the first landmarks, whose median depth is the unit of length;
+/// from then on each frame's pose comes from the landmarks that it sees, new ones are placed from keyframes
+/// whose poses are known, so that the unit lasts, and the last keyframes are adjusted together. A camera that
+/// stands or only turns has displacement 0. Where a frame cannot be told it is lost, for a reason; the next
+/// ones are tried again from the last that could, for as long as `max_gap_s`, so that a bad frame ends no
+/// unit. Meanwhile points of the new view are followed as well: what comes first, the old scene or a new
+/// segment with two views that tell one, goes on.
+class MonocularVo {
+ public:
+  /// Throws `std::invalid_argument` for options out of range.
+  explicit MonocularVo(const MonocularVoOptions& options = {});
+  ~MonocularVo();
+  MonocularVo(MonocularVo&&) noexcept;
+  MonocularVo& operator=(MonocularVo&&) noexcept;
+
+  /// Takes the next frame, 8 bit grey or BGR, all of one size, at strictly increasing times. Throws
+  /// `vo::Error` if a calibrated camera is of another size, `std::invalid_argument` if frames differ in size
+  /// or times do not increase. O(pixels + corners), and every keyframe's adjustment.
+  void push(const cv::Mat& frame, double time_s);
+
+  /// The track of all frames; they are adjusted until the end, so it is only known then. Nothing may be
+  /// pushed after.
+  DisplacementTrack finish();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The same for frames that are all at hand. `time_s`: one for each.
+DisplacementTrack monocular_vo(std::span<const cv::Mat> frames, std::span<const double> time_s,
+                               const MonocularVoOptions& options = {});
+
+}  // namespace vo

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "vo/motion/displacement_track.hpp"
+#include "vo/visual_odometry/landmark_map.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace vo {
+
+/// A pose as a keyframe sees it, so that it goes with the keyframe when that is adjusted.
+struct AnchoredPose {
+  std::size_t keyframe = 0;
+  Pose3 in_keyframe;  ///< keyframe_from_camera
+};
+
+/// A frame of a segment that is still being adjusted.
+struct SegmentFrame {
+  std::size_t frame = 0;               ///< index in the walk
+  std::optional<AnchoredPose> before;  ///< by the keyframe before it, or its own; none: its pose is not known
+  std::optional<AnchoredPose> after;   ///< by the one after it, once there is one
+  double sigma = 0;                    ///< of its displacement
+};
+
+/// Writes the frames of a segment down, now that its keyframes are as good as they get: a frame between two
+/// keyframes is where both put it, by its distance in frames. The first frame of a segment keeps what the
+/// track has of it, where it is part of the segment before as well. `frames`: consecutive; all in the track.
+void write_segment(std::span<const SegmentFrame> frames, const std::vector<Keyframe>& keyframes, int segment,
+                   DisplacementTrack& track);
+
+/// Change of heading, to the right, of a camera that turned.
+double heading_change_rad(const cv::Matx33d& from, const cv::Matx33d& to);
+
+}  // namespace vo

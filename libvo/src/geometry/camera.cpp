@@ -1,0 +1,82 @@
+#include "vo/geometry/camera.hpp"
+
+#include "vo/base/error.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/calib3d.hpp>
+
+namespace vo {
+
+Camera camera_from_fov(int width_px, int height_px, double fov_deg) {
+  if (width_px < 1 || height_px < 1) throw std::invalid_argument("camera_from_fov: size must be positive");
+  if (!(fov_deg >= 10 && fov_deg <= 170)) {
+    throw std::invalid_argument("camera_from_fov: fov_deg must be in 10..170");
+  }
+  Camera camera{.width_px = width_px, .height_px = height_px};
+  camera.fx_px = camera.fy_px = width_px / 2.0 / std::tan(fov_deg * std::numbers::pi / 360);
+  camera.cx_px = (width_px - 1) / 2.0;
+  camera.cy_px = (height_px - 1) / 2.0;
+  return camera;
+}
+
+Camera camera_of_recording(const std::optional<Camera>& calibrated, int width_px, int height_px,
+                           double fov_deg) {
+  if (!calibrated) return camera_from_fov(width_px, height_px, fov_deg);
+  if (calibrated->width_px != width_px || calibrated->height_px != height_px) {
+    throw Error("camera calibration",
+                fmt::format("is of {}x{} pixels", calibrated->width_px, calibrated->height_px),
+                fmt::format("{}x{}, as the recording", width_px, height_px));
+  }
+  return *calibrated;
+}
+
+Camera resized(const Camera& camera, int width_px) {
+  const double factor = static_cast<double>(width_px) / camera.width_px;
+  Camera small = camera;
+  small.width_px = width_px;
+  small.height_px = static_cast<int>(std::lround(camera.height_px * factor));
+  small.fx_px *= factor;
+  small.fy_px *= factor;
+  small.cx_px = (camera.cx_px + 0.5) * factor - 0.5;
+  small.cy_px = (camera.cy_px + 0.5) * factor - 0.5;
+  return small;
+}
+
+std::vector<ImagePoint> undistort(const Camera& camera, const std::vector<ImagePoint>& pixels) {
+  std::vector<ImagePoint> points(pixels.size());
+  if (camera.distortion.empty()) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      points[i] = {(pixels[i].x - camera.cx_px) / camera.fx_px, (pixels[i].y - camera.cy_px) / camera.fy_px};
+    }
+    return points;
+  }
+  if (pixels.empty()) return points;
+  const cv::Matx33d k(camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1);
+  std::vector<cv::Point2d> distorted;
+  for (const ImagePoint& pixel : pixels) distorted.emplace_back(pixel.x, pixel.y);
+  std::vector<cv::Point2d> straight;
+  cv::undistortPoints(distorted, straight, k, camera.distortion);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {straight[i].x, straight[i].y};
+  return points;
+}
+
+ImagePoint with_radial(const ImagePoint& at, double radial) {
+  const double stretch = 1 + radial * (at.x * at.x + at.y * at.y);
+  return {stretch * at.x, stretch * at.y};
+}
+
+ImagePoint without_radial(const ImagePoint& seen, double radial) {
+  constexpr int kRounds = 6;  // each leaves a share of about 2 radial r^2 of the error
+  ImagePoint at = seen;
+  for (int i = 0; i < kRounds; ++i) {
+    const double stretch = 1 + radial * (at.x * at.x + at.y * at.y);
+    at = {seen.x / stretch, seen.y / stretch};
+  }
+  return at;
+}
+
+}  // namespace vo

@@ -1,0 +1,130 @@
+#include "vo/motion/walk_motion.hpp"
+
+#include "vo/gait/lowpass.hpp"
+#include "vo/motion/height_by_steps.hpp"
+
+#include <optional>
+#include <stdexcept>
+
+namespace vo {
+namespace {
+
+/// All of one source. The error is that of the walks of the tests: a track and steps are not there to measure
+/// it by.
+std::vector<FrameDisplacement> from_one(const std::vector<double>& displacement, DisplacementSource source,
+                                        double relative_error) {
+  std::vector<FrameDisplacement> frames;
+  for (const double value : displacement) frames.push_back({value, relative_error * value, source});
+  if (!frames.empty()) frames.front() = {};
+  return frames;
+}
+
+WalkMotion by_track_alone(const DisplacementTrack& track) {
+  WalkMotion motion;
+  motion.metric = track.scale == TrackScale::kMetric;
+  for (const TrackedDisplacement& frame : track.frames) {
+    motion.frames.push_back(
+        frame.valid ? FrameDisplacement{frame.displacement, frame.sigma, DisplacementSource::kTrack}
+                    : FrameDisplacement{});
+  }
+  return motion;
+}
+
+WalkMotion by_steps(const Walk& walk, const PedestrianMotionOptions& options) {
+  WalkMotion motion;
+  motion.pedestrian = pedestrian_motion(walk, options);
+  motion.metric = true;
+  motion.trajectory = motion.pedestrian->trajectory.at_frame;
+  motion.frames = from_one(motion.pedestrian->displacement_m, DisplacementSource::kSteps, kUsualStepsError);
+  return motion;
+}
+
+WalkMotion by_alignment_error(const Walk& walk, const VisualMotionOptions& options) {
+  WalkMotion motion;
+  motion.visual = visual_motion(walk, options);
+  motion.frames =
+      from_one(motion.visual->displacement, DisplacementSource::kAlignmentError, kUsualAlignmentError);
+  return motion;
+}
+
+/// Frames whose steps could be seen, or were filled in.
+std::vector<bool> steps_seen(const PedestrianMotion& motion) {
+  std::vector<bool> seen = motion.signal.reliable;
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] || motion.displacement_m[i] > 0;
+  return seen;
+}
+
+/// False where steps were found during less than half of the time that the camera is seen to move, or have it
+/// nearer to the ground, or higher, than one that is carried: the bounce and sway of a car look like steps.
+bool on_foot(const PedestrianMotion& motion, const Walk& walk, const std::vector<bool>& standing) {
+  constexpr double kLowest_m = 0.5, kHighest_m = 3;  // from hip to above the head, and steps half as long
+  std::size_t moving = 0, stepping = 0;
+  for (std::size_t i = 1; i < walk.frames(); ++i) {
+    if (!walk.track || !walk.track->frames[i].valid || standing[i]) continue;
+    ++moving;
+    stepping += motion.displacement_m[i] > 0 ? 1 : 0;
+  }
+  if (motion.detection.steps.empty() || 2 * stepping < moving) return false;
+  if (!walk.track) return true;
+  const std::optional<double> height_m = height_by_steps_m(*walk.track, motion.displacement_m);
+  return !height_m || (*height_m >= kLowest_m && *height_m <= kHighest_m);
+}
+
+WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& options) {
+  WalkMotion motion;
+  motion.visual = visual_motion(walk, options.visual);
+  MotionEvidence evidence{.time_s = walk.time_s,
+                          .track = walk.track ? &*walk.track : nullptr,
+                          .errors = &motion.visual->errors,
+                          .errors_known = motion.visual->usable,
+                          .standing = motion.visual->standing};
+  if (with_steps) {
+    motion.pedestrian = pedestrian_motion(walk, options.pedestrian);
+    if (on_foot(*motion.pedestrian, walk, motion.visual->standing)) {
+      evidence.steps_m = motion.pedestrian->displacement_m;
+      evidence.steps_known = steps_seen(*motion.pedestrian);
+    }
+  }
+  HybridMotion hybrid = hybrid_motion(evidence, options.hybrid);
+  motion.frames = std::move(hybrid.frames);
+  motion.metric = hybrid.metric;
+  if (motion.pedestrian)
+    motion.trajectory =
+        dead_reckon(displacements(motion), motion.pedestrian->signal.heading_rad, walk.time_s);
+  return motion;
+}
+
+}  // namespace
+
+void keep_for(MotionSource source, WalkOptions& options) {
+  options.track_features = source == MotionSource::kSteps || source == MotionSource::kHybrid;
+  options.visual_odometry = source == MotionSource::kVisualOdometry || source == MotionSource::kHybrid;
+}
+
+WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
+  const bool can_show_steps = walk.tracked.size() == walk.frames() &&
+                              frame_rate_hz(walk.time_s) > 2 * options.pedestrian.signal.lowpass.cutoff_hz;
+  switch (source) {
+    case MotionSource::kSad:
+      return by_alignment_error(walk, options.visual);
+    case MotionSource::kSteps:
+      return by_steps(walk, options.pedestrian);
+    case MotionSource::kHybrid:
+      return by_all(walk, can_show_steps, options);
+    case MotionSource::kVisualOdometry:
+    case MotionSource::kFile:
+      if (!walk.track) throw std::invalid_argument("walk_motion: a walk with a track expected");
+      return source == MotionSource::kFile ? by_all(walk, false, options) : by_track_alone(*walk.track);
+    case MotionSource::kNone:
+      break;
+  }
+  throw std::invalid_argument("walk_motion: a source expected");
+}
+
+std::vector<double> displacements(const WalkMotion& motion) {
+  std::vector<double> values;
+  for (const FrameDisplacement& frame : motion.frames) values.push_back(frame.value);
+  return values;
+}
+
+}  // namespace vo

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "vo/tracks/matching.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace vo {
+
+/// The nearest candidates of a point, squared distances.
+struct Nearest {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  std::size_t index = kNone;
+  float first = std::numeric_limits<float>::infinity();
+  float second = std::numeric_limits<float>::infinity();
+
+  /// Of equal distances the lowest index is the nearest, whatever the order of the calls.
+  void offer(std::size_t i, float distance) {
+    if (distance < first || (distance == first && i < index)) {
+      second = first;
+      first = distance;
+      index = i;
+    } else if (distance < second) {
+      second = distance;
+    }
+  }
+};
+
+/// For each point of the first image its nearest of the second, and the other way round the squared distances
+/// alone, which is all that a mutual test needs.
+struct NearestOfBoth {
+  std::vector<Nearest> from;
+  std::vector<float> to;
+};
+
+NearestOfBoth nearest_exact(const Features& from, const Features& to, const MatchOptions& options);
+NearestOfBoth nearest_flann(const Features& from, const Features& to);
+
+}  // namespace vo

@@ -1,0 +1,324 @@
+#include "route/sqlite.hpp"
+#include "support/random_images.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/route/route_database.hpp>
+#include <place/version.hpp>
+#include <vo/base/error.hpp>
+
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::random_images;
+using test_support::read_file;
+using test_support::TemporaryFolder;
+
+/// A traverse whose keyframes lack now distances, now poses, now previews.
+place::Traverse example_traverse(const std::string& name, std::size_t keyframes, std::uint64_t seed) {
+  place::Traverse traverse;
+  traverse.name = name;
+  traverse.source = name + "'s \"walk\" ü.mp4";
+  traverse.frames = 12345;
+  traverse.duration_s = 411.4666666666667;
+  traverse.frame_width_px = 1920;
+  traverse.frame_height_px = 1080;
+  traverse.pose_source = "poses.tum";
+  traverse.motion_model = {.error = {0, 0.1, 1.0 / 3}, .separation = {0, 1, 2}};
+  traverse.settings = {{"--fov-deg", "64.4"}, {"--name", ""}};
+  for (std::size_t i = 0; i < keyframes; ++i) {
+    place::Keyframe keyframe;
+    keyframe.frame = static_cast<std::int64_t>(7 * i);
+    keyframe.time_s = static_cast<double>(i) / 3;
+    keyframe.displacement = 0.1 * static_cast<double>(i);
+    if (i % 2 == 0) keyframe.distance_m = -1.0 / 7 + static_cast<double>(i);
+    if (i % 3 == 0) keyframe.pose = vo::Pose2{1e-9, -0.0, -3.1};
+    if (i % 4 == 0) keyframe.preview_jpeg = {0, 255, static_cast<std::uint8_t>(i)};
+    traverse.keyframes.push_back(keyframe);
+  }
+  traverse.thumbnails = random_images(16, 8, keyframes, seed);
+  return traverse;
+}
+
+place::Route example_route() {
+  place::Route route;
+  route.thumbnail = {.width = 16, .height = 8};
+  route.patch = {.patch_px = 4, .shape = vo::PatchShape::kWindow, .min_deviation = 1.5, .min_contrast = 0.7};
+  route.sampling = {.motion = vo::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1, .metric = true};
+  route.traverses.push_back(example_traverse("by day", 600, 1));    // three chunks, the last one not full
+  route.traverses.push_back(example_traverse("by night", 256, 2));  // one full chunk
+  route.traverses.push_back(example_traverse("", 0, 3));            // no keyframe
+  route.traverses.push_back(example_traverse("short", 1, 4));
+  route.traverses[1].surveyed = false;
+  route.origin = {.latitude_deg = -33.85678, .longitude_deg = 151.21528};
+  return route;
+}
+
+void expect_equal(const place::Traverse& a, const place::Traverse& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.frames, b.frames);
+  EXPECT_EQ(a.duration_s, b.duration_s);
+  EXPECT_EQ(a.frame_width_px, b.frame_width_px);
+  EXPECT_EQ(a.frame_height_px, b.frame_height_px);
+  EXPECT_EQ(a.pose_source, b.pose_source);
+  EXPECT_EQ(a.surveyed, b.surveyed);
+  EXPECT_EQ(a.motion_model.error, b.motion_model.error);
+  EXPECT_EQ(a.motion_model.separation, b.motion_model.separation);
+  EXPECT_EQ(a.settings, b.settings);
+  EXPECT_EQ(a.thumbnails.width, b.thumbnails.width);
+  EXPECT_EQ(a.thumbnails.height, b.thumbnails.height);
+  EXPECT_EQ(a.thumbnails.pixels, b.thumbnails.pixels);
+  ASSERT_EQ(a.keyframes.size(), b.keyframes.size());
+  for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
+    const place::Keyframe &j = a.keyframes[i], &k = b.keyframes[i];
+    EXPECT_EQ(j.frame, k.frame);
+    EXPECT_EQ(j.time_s, k.time_s);
+    EXPECT_EQ(j.displacement, k.displacement);
+    EXPECT_EQ(j.distance_m, k.distance_m);
+    EXPECT_EQ(j.preview_jpeg, k.preview_jpeg);
+    ASSERT_EQ(j.pose.has_value(), k.pose.has_value());
+    if (!j.pose) continue;
+    EXPECT_EQ(j.pose->x_m, k.pose->x_m);
+    EXPECT_EQ(j.pose->y_m, k.pose->y_m);
+    EXPECT_EQ(j.pose->heading_rad, k.pose->heading_rad);
+  }
+}
+
+void expect_equal(const place::Route& a, const place::Route& b) {
+  EXPECT_EQ(a.thumbnail.width, b.thumbnail.width);
+  EXPECT_EQ(a.thumbnail.height, b.thumbnail.height);
+  EXPECT_EQ(a.patch.patch_px, b.patch.patch_px);
+  EXPECT_EQ(a.patch.shape, b.patch.shape);
+  EXPECT_EQ(a.patch.min_deviation, b.patch.min_deviation);
+  EXPECT_EQ(a.patch.min_contrast, b.patch.min_contrast);
+  EXPECT_EQ(a.sampling.motion, b.sampling.motion);
+  EXPECT_EQ(a.sampling.every, b.sampling.every);
+  EXPECT_EQ(a.sampling.n, b.sampling.n);
+  EXPECT_EQ(a.sampling.unit, b.sampling.unit);
+  EXPECT_EQ(a.sampling.metric, b.sampling.metric);
+  ASSERT_EQ(a.origin.has_value(), b.origin.has_value());
+  if (a.origin) {
+    EXPECT_EQ(a.origin->latitude_deg, b.origin->latitude_deg);
+    EXPECT_EQ(a.origin->longitude_deg, b.origin->longitude_deg);
+  }
+  ASSERT_EQ(a.traverses.size(), b.traverses.size());
+  for (std::size_t i = 0; i < a.traverses.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_equal(a.traverses[i], b.traverses[i]);
+  }
+}
+
+std::size_t files_in(const TemporaryFolder& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), {}));
+}
+
+TEST(RouteDatabase, RoundTripsEverything) {
+  const TemporaryFolder folder;
+  const place::Route route = example_route();
+  place::write_route(folder / "r.db", route);
+  const place::Route back = place::read_route(folder / "r.db");
+  expect_equal(back, route);
+  EXPECT_EQ(back.software_version, place::kVersion);
+  EXPECT_EQ(files_in(folder), 1U);  // no journal, no temporary
+}
+
+TEST(RouteDatabase, RoundTripsTheOtherKinds) {
+  const TemporaryFolder folder;
+  place::Route route;  // defaults: grid patches, motion by alignment error; no traverse
+  place::write_route(folder / "r.db", route);
+  expect_equal(place::read_route(folder / "r.db"), route);
+}
+
+TEST(RouteDatabase, LeavesPreviewsOutWhereTheyAreNotWanted) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  place::write_route(folder / "r.db", route);
+  for (auto& traverse : route.traverses) {
+    for (auto& keyframe : traverse.keyframes) keyframe.preview_jpeg.clear();
+  }
+  expect_equal(place::read_route(folder / "r.db", {.previews = false}), route);
+}
+
+TEST(RouteDatabase, EqualRoutesGiveEqualBytes) {
+  const TemporaryFolder folder;
+  place::write_route(folder / "a.db", example_route());
+  place::write_route(folder / "b.db", example_route());
+  EXPECT_EQ(read_file(folder / "a.db"), read_file(folder / "b.db"));
+  // Also after reading and writing back, over what is there.
+  place::write_route(folder / "b.db", place::read_route(folder / "a.db"));
+  EXPECT_EQ(read_file(folder / "a.db"), read_file(folder / "b.db"));
+  place::Route other = example_route();
+  other.traverses[0].thumbnails.pixels[0] ^= 1;
+  place::write_route(folder / "b.db", other);
+  EXPECT_NE(read_file(folder / "a.db"), read_file(folder / "b.db"));
+}
+
+TEST(RouteDatabase, TakesAnotherTraverse) {
+  const TemporaryFolder folder;
+  place::write_route(folder / "r.db", example_route());
+  place::Route route = place::read_route(folder / "r.db");
+  route.traverses.push_back(example_traverse("in rain", 30, 9));
+  place::write_route(folder / "r.db", route);
+  place::Route expected = example_route();
+  expected.traverses.push_back(example_traverse("in rain", 30, 9));
+  expect_equal(place::read_route(folder / "r.db"), expected);
+}
+
+TEST(RouteDatabase, SaysWhatIsNoRouteDatabase) {
+  const TemporaryFolder folder;
+  EXPECT_THROW_WITH(place::read_route(folder / "none.db"), vo::Error, "none.db: does not exist");
+  EXPECT_THROW_WITH(place::read_route(folder.path()), vo::Error, "is no file");
+  EXPECT_THROW_WITH(place::read_route(folder.write("text.db", std::string(5000, 'x'))), vo::Error,
+                    "text.db: is no route database");
+  EXPECT_THROW_WITH(place::read_route(folder.write("empty.db", "")), vo::Error,
+                    "empty.db: is no route database");
+}
+
+TEST(RouteDatabase, RefusesAnotherProgramsDatabaseAndANewerSchema) {
+  const TemporaryFolder folder;
+  place::write_route(folder / "r.db", example_route());
+  const std::string bytes = read_file(folder / "r.db");
+  // SQLite's file header: user version at bytes 60-63, application id at 68-71, most significant byte first.
+  std::string newer = bytes;
+  newer[63] = static_cast<char>(place::kRouteSchemaVersion + 1);
+  EXPECT_THROW_WITH(place::read_route(folder.write("newer.db", newer)), vo::Error,
+                    "newer.db: has schema version 3, written by a newer retrace");
+  std::string other = bytes;
+  other[71] = static_cast<char>(other[71] + 1);
+  EXPECT_THROW_WITH(place::read_route(folder.write("other.db", other)), vo::Error,
+                    "other.db: is no route database");
+}
+
+TEST(RouteDatabase, ReadsSchemaOne) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  place::write_route(folder / "r.db", route);
+  place::sqlite::Database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db")
+      .run(
+          "ALTER TABLE traverse DROP COLUMN surveyed; ALTER TABLE route DROP COLUMN metric; "
+          "DROP TABLE geographic_origin; PRAGMA user_version = 1;");
+  route.sampling.metric = false;       // of this motion none was
+  route.traverses[1].surveyed = true;  // all were
+  route.origin.reset();
+  expect_equal(place::read_route(folder / "r.db"), route);
+}
+
+TEST(RouteDatabase, FindsTruncation) {
+  const TemporaryFolder folder;
+  place::write_route(folder / "r.db", example_route());
+  const std::string bytes = read_file(folder / "r.db");
+  // Within the header, within a page, at a page's end, before the last byte.
+  constexpr std::size_t kPage = 16384;
+  for (const std::size_t length : {std::size_t{50}, std::size_t{3000}, kPage, bytes.size() / 2,
+                                   bytes.size() / 2 / kPage * kPage, bytes.size() - 1}) {
+    SCOPED_TRACE(length);
+    const auto path = folder.write("t.db", bytes.substr(0, length));
+    EXPECT_THROW_WITH(place::read_route(path), vo::Error, "t.db: is ");
+  }
+}
+
+TEST(RouteDatabase, FindsAFlippedBitOfAThumbnail) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  // A chunk of known content, so that it is found in the file.
+  for (auto& pixel : route.traverses[1].thumbnails.pixels) pixel = 0xA5;
+  place::write_route(folder / "r.db", route);
+  std::string bytes = read_file(folder / "r.db");
+  const std::size_t found = bytes.find(std::string(64, '\xA5'));
+  ASSERT_NE(found, std::string::npos);
+  bytes[found + 13] ^= 1;
+  EXPECT_THROW_WITH(place::read_route(folder.write("r.db", bytes)), vo::Error,
+                    "r.db: is damaged: a block of thumbnails does not fit its checksum");
+}
+
+TEST(RouteDatabase, FindsThumbnailsWithoutAKeyframeAndCountsThatAreNotTrue) {
+  const TemporaryFolder folder;
+  const auto damaged_by = [&](const char* sql) {
+    place::write_route(folder / "r.db", example_route());
+    place::sqlite::Database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db").run(sql);
+    std::string said;
+    try {
+      static_cast<void>(place::read_route(folder / "r.db"));
+    } catch (const vo::Error& error) {
+      said = error.what();
+    }
+    return said;
+  };
+  EXPECT_THAT(damaged_by("DELETE FROM keyframe WHERE traverse = 1 AND position = 0;"
+                         "UPDATE traverse SET keyframes = keyframes - 1 WHERE id = 1"),
+              testing::HasSubstr("r.db: is damaged: there are more thumbnails than keyframes"));
+  EXPECT_THAT(damaged_by("DELETE FROM thumbnail_chunk WHERE traverse = 1"),
+              testing::HasSubstr("thumbnails are missing"));
+  EXPECT_THAT(damaged_by("UPDATE traverse SET keyframes = 1152921504606846976 WHERE id = 1"),
+              testing::HasSubstr("keyframes are missing"));
+}
+
+TEST(RouteDatabase, AnyDamageIsAnErrorThatNamesTheFileOrDoesNoHarm) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  route.traverses.resize(1);
+  route.traverses[0] = example_traverse("a", 5, 1);
+  place::write_route(folder / "r.db", route);
+  const std::string bytes = read_file(folder / "r.db");
+  std::size_t errors = 0;
+  // A prime, so that the bytes hit do not keep in step with pages; each with its highest and lowest bit.
+  constexpr std::size_t kStep = 127;
+  for (std::size_t i = 0; i < bytes.size(); i += kStep) {
+    for (const char bit : {'\x01', '\x80'}) {
+      std::string damaged = bytes;
+      damaged[i] = static_cast<char>(damaged[i] ^ bit);
+      const auto path = folder.write("d.db", damaged);
+      try {
+        static_cast<void>(place::read_route(path));
+      } catch (const vo::Error& error) {
+        ++errors;
+        EXPECT_THAT(error.what(), testing::HasSubstr("d.db: ")) << i;
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << "byte " << i << ": " << error.what();
+      }
+    }
+  }
+  EXPECT_GT(errors, 0U);
+  EXPECT_EQ(files_in(folder), 2U);
+}
+
+TEST(RouteDatabase, AFailedWriteLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  place::write_route(folder / "r.db", example_route());
+  const std::string before = read_file(folder / "r.db");
+  place::Route broken = example_route();
+  // SQLite stores no NaN: it becomes NULL, which the column refuses, halfway through writing.
+  broken.traverses[1].keyframes[100].time_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW_WITH(place::write_route(folder / "r.db", broken), vo::Error, "r.db: ");
+  EXPECT_EQ(read_file(folder / "r.db"), before);
+  EXPECT_EQ(files_in(folder), 1U);
+  EXPECT_THROW_WITH(place::write_route(folder / "none" / "r.db", example_route()), vo::Error, "r.db: ");
+  EXPECT_THROW_WITH(place::write_route(folder.path(), example_route()), vo::Error, "is a folder");
+}
+
+TEST(RouteDatabase, RefusesTraversesThatDoNotFit) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const place::Route& route) {
+    EXPECT_THROW(place::write_route(folder / "r.db", route), std::invalid_argument);
+    EXPECT_EQ(files_in(folder), 0U);
+  };
+  place::Route route = example_route();
+  route.traverses[1].name = "by day";
+  refused(route);
+  route = example_route();
+  route.traverses[0].keyframes.pop_back();
+  refused(route);
+  route = example_route();
+  route.thumbnail.width = 8;
+  refused(route);
+}
+
+}  // namespace

@@ -1,0 +1,147 @@
+#include "support/known_walk.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/route/walk_sampling.hpp>
+
+namespace {
+
+using namespace test_support;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// The walk with a trajectory file that has it 0.1 m on at each frame.
+KnownWalk in_metres(KnownWalk known) {
+  known.walk.track.emplace();
+  known.walk.track->scale = vo::TrackScale::kMetric;
+  for (std::size_t i = 0; i < known.walk.frames(); ++i)
+    known.walk.track->frames.push_back({.valid = i > 0, .displacement = i > 0 ? 0.1 : 0, .sigma = 0});
+  return known;
+}
+
+/// A route with one traverse along the wall at 1/2 pixel a frame, sampled by motion.
+class WalkSamplingTest : public testing::Test {
+ protected:
+  WalkSamplingTest() { add_traverse(route_, "by day", steady_walk(wall_, 0.5)); }
+  Wall wall_{kWallPx, 1};
+  place::Route route_;
+};
+
+TEST(SampleWalk, EveryKthWithoutMotion) {
+  const Wall wall(kWallPx, 1);
+  const auto known = steady_walk(wall, 1, 0, 100);
+  place::WalkSamplingOptions options;
+  options.sampling = {.motion = vo::MotionSource::kNone, .every = 7};
+  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
+  ASSERT_THAT(sampled.frames, SizeIs(15));  // 0, 7, ..., 98 of 101
+  for (std::size_t k = 0; k < 15; ++k) EXPECT_EQ(sampled.frames[k], 7 * k);
+  EXPECT_THAT(sampled.displacement, IsEmpty());
+  EXPECT_FALSE(sampled.motion_model.learned());
+  EXPECT_EQ(sampled.unit, 0);
+  EXPECT_EQ(sampled.scale, 1);
+  EXPECT_EQ(sampled.thumbnails.pixels, vo::select(known.walk.thumbnails, sampled.frames).pixels);
+}
+
+TEST_F(WalkSamplingTest, SamplesEvenlyWhateverTheSpeed) {
+  // Half the frames go at twice the speed of the others.
+  std::vector<double> speed_px(600, 0.3);
+  speed_px.insert(speed_px.end(), 300, 0.6);
+  const auto known = known_walk(wall_, places(50, speed_px));
+  const auto sampled = sample_query(known, route_);
+  std::vector<double> slow_px, fast_px;
+  for (std::size_t k = 1; k < sampled.frames.size(); ++k) {
+    const double gap_px = known.place_px[sampled.frames[k]] - known.place_px[sampled.frames[k - 1]];
+    (sampled.frames[k] < 600 ? slow_px : fast_px).push_back(gap_px);
+  }
+  const auto median = [](std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+    return values[values.size() / 2];
+  };
+  // Without motion the ratio would be 2; each gap is right to a step of a frame at either end.
+  EXPECT_NEAR(median(fast_px) / median(slow_px), 1, 0.35);
+  // Tied to the first traverse, keyframes lie as far apart as its do.
+  EXPECT_NEAR(median(slow_px), spacing_px(route_.traverses[0]), 0.35 * spacing_px(route_.traverses[0]));
+}
+
+TEST(SampleWalk, TiesWalksInMetresByAPriorOfTheirOwn) {
+  const Wall wall(kWallPx, 1);
+  place::Route route;
+  route.sampling.motion = vo::MotionSource::kFile;
+  add_traverse(route, "by day", in_metres(steady_walk(wall, 0.5)));
+  route.sampling.metric = true;
+  // Metres that are wrong by 1.8.
+  const auto query = in_metres(steady_walk(wall, 0.9));
+  place::WalkSamplingOptions options;
+  options.sampling = route.sampling;
+  const auto scale = [&] {
+    return place::sample_walk(query.walk, route, &route.traverses.front(), options).scale;
+  };
+  EXPECT_NEAR(scale(), 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
+  options.relative_scale.prior_weight = 1e6;
+  EXPECT_NEAR(scale(), 1.8, 0.2);
+  options.metric_scale.prior_weight = 1e6;
+  EXPECT_NEAR(scale(), 1, 0.1);
+}
+
+TEST_F(WalkSamplingTest, TiesTheScaleToTheFirstTraverse) {
+  // Walks at one speed throughout are sampled by their own mean: at 0.9 pixels a frame instead of 0.5, a
+  // keyframe step reaches 1.8 times as far.
+  const auto fast = steady_walk(wall_, 0.9);
+  place::WalkSamplingOptions options;
+  options.sampling = route_.sampling;
+  const auto tied = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
+  EXPECT_NEAR(tied.scale, 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
+  options.tie_scale = false;
+  const auto loose = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
+  EXPECT_EQ(loose.scale, 1);
+  EXPECT_LT(loose.frames.size(), tied.frames.size());
+  EXPECT_EQ(place::sample_walk(fast.walk, route_, nullptr, options).unit, route_.sampling.unit);
+}
+
+TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
+  const auto known = steady_walk(wall_, 0.5);
+  const place::Traverse& traverse = route_.traverses[0];
+  EXPECT_EQ(traverse.name, "by day");
+  EXPECT_EQ(traverse.source, "wall");
+  EXPECT_EQ(traverse.pose_source, "truth.csv");
+  EXPECT_EQ(traverse.frames, static_cast<std::int64_t>(known.place_px.size()));
+  EXPECT_EQ(traverse.duration_s, known.walk.time_s.back());
+  EXPECT_TRUE(traverse.motion_model.learned());
+  ASSERT_EQ(traverse.thumbnails.size(), traverse.keyframes.size());
+  ASSERT_GT(traverse.keyframes.size(), 50U);
+  for (std::size_t k = 0; k < traverse.keyframes.size(); ++k) {
+    const auto& keyframe = traverse.keyframes[k];
+    const auto frame = static_cast<std::size_t>(keyframe.frame);
+    EXPECT_EQ(keyframe.time_s, known.walk.time_s[frame]);
+    EXPECT_EQ(keyframe.distance_m, known.place_px[frame] / 10);
+    EXPECT_EQ(keyframe.pose->x_m, known.place_px[frame] / 10);
+    EXPECT_THAT(traverse.thumbnails[k], testing::ElementsAreArray(known.walk.thumbnails[frame]));
+    // Each multiple of the unit has the frame nearest to it, which is within half the fastest step, 2.
+    EXPECT_NEAR(keyframe.displacement, static_cast<double>(k) * route_.sampling.unit, 1) << k;
+  }
+}
+
+TEST(MakeTraverse, RefusesTheSurveyOfAnotherWalk) {
+  const Wall wall(100, 1);
+  const auto known = steady_walk(wall, 1, 0, 20);
+  place::WalkSamplingOptions options;
+  options.sampling.motion = vo::MotionSource::kNone;
+  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
+  auto survey = survey_of(known);
+  EXPECT_NO_THROW(place::make_traverse("a", known.walk, sampled, survey));
+  survey.distance_m.pop_back();
+  EXPECT_THROW(place::make_traverse("a", known.walk, sampled, survey), std::invalid_argument);
+  const auto bare = place::make_traverse("a", known.walk, sampled, std::nullopt);
+  EXPECT_EQ(bare.pose_source, "");
+  EXPECT_FALSE(bare.keyframes[3].distance_m || bare.keyframes[3].pose);
+  EXPECT_EQ(bare.keyframes[3].displacement, 0);
+}
+
+}  // namespace

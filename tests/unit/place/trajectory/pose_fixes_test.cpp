@@ -1,0 +1,55 @@
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/trajectory/pose_fixes.hpp>
+
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// A match of keyframe q to a traverse; with a pose `x_m` east, unless that is missing.
+place::Match match_on(const std::string& traverse, std::optional<double> x_m, bool accepted = true) {
+  place::Match match{.score = 2, .accepted = accepted};
+  match.place = place::Place{.traverse = traverse};
+  if (x_m) match.place->pose = vo::Pose2{*x_m, 0, 0};
+  return match;
+}
+
+TEST(PoseFixes, AreSurveyedIfAnyIs) {
+  place::Route route;
+  route.traverses.resize(4);
+  const char* names[] = {"own odometry", "survey", "second survey", "own again"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    route.traverses[i].name = names[i];
+    route.traverses[i].surveyed = i == 1 || i == 2;
+  }
+  std::vector<place::Match> matches{match_on("own odometry", 1),         match_on("survey", 2),
+                                    match_on("own odometry", 3),         match_on("own odometry", 4),
+                                    match_on("second survey", 5),        match_on("second survey", 6),
+                                    match_on("second survey", 7, false), match_on("survey", {})};
+  matches.emplace_back();  // nothing matched
+  const auto surveyed = place::pose_fixes(route, matches);
+  ASSERT_THAT(surveyed.fixes, SizeIs(3));
+  EXPECT_EQ(surveyed.fixes[0].node, 1U);
+  EXPECT_EQ(surveyed.fixes[0].pose.x_m, 2);
+  EXPECT_EQ(surveyed.fixes[0].score, 2);
+  EXPECT_EQ(surveyed.fixes[2].node, 5U);
+  EXPECT_EQ(surveyed.traverse, 2U);  // with two of the three
+
+  // Two walks' odometry have nothing in common: the one with more.
+  const auto own = place::pose_fixes(
+      route, {match_on("own again", 1), match_on("own odometry", 2), match_on("own odometry", 3)});
+  ASSERT_THAT(own.fixes, SizeIs(2));
+  EXPECT_EQ(own.fixes[0].node, 1U);
+  EXPECT_EQ(own.traverse, 0U);
+
+  EXPECT_THAT(place::pose_fixes(route, {}).fixes, IsEmpty());
+  EXPECT_FALSE(place::pose_fixes(route, {match_on("survey", {})}).traverse);
+}
+
+}  // namespace
