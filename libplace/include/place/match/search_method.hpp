@@ -1,0 +1,36 @@
+#pragma once
+
+#include "place/match/cost_matrix.hpp"
+#include "place/match/search_options.hpp"
+#include "place/match/sequence_search.hpp"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace place {
+
+/// What a search found, and what it took.
+struct SearchResult {
+  std::vector<SequenceMatch> matches;  ///< one for each query, in order
+  double looked_at = 1;                ///< share of the matrix's cells that were looked at
+};
+
+/// A way to turn enhanced costs into a place for each query. A further one is a file with its function, an
+/// entry in the table, and its test.
+struct SearchMethod {
+  std::string_view name;     ///< as `--search` takes it
+  std::string_view summary;  ///< one line
+  /// `enhanced`: queries by references, lower is more alike, in standard deviations. Sequences cross no gap
+  /// of `options.gaps`. The same bytes for any number of threads. Throws `std::invalid_argument` for options
+  /// that are not valid.
+  SearchResult (*search)(const CostMatrix& enhanced, const SearchOptions& options);
+};
+
+/// All search methods; the first is the default.
+std::span<const SearchMethod> search_methods();
+
+/// The method of a name. Throws `vo::Error` that names all of them if there is none.
+const SearchMethod& search_method(std::string_view name);
+
+}  // namespace place

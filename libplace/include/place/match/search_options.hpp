@@ -1,0 +1,16 @@
+#pragma once
+
+#include "place/match/search_graph.hpp"
+#include "place/match/search_lines.hpp"
+#include "place/match/walk_gaps.hpp"
+
+namespace place {
+
+/// What every search method is given beside the costs; each takes what concerns it.
+struct SearchOptions {
+  SequenceSearchOptions sequence;
+  GraphSearchOptions graph;
+  WalkGaps gaps;
+};
+
+}  // namespace place

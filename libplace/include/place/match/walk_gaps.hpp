@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace place {
+
+/// Keyframes before which a walk was interrupted (its clock jumps, the camera was off): keyframe k stands for
+/// the gap between k - 1 and k. No sequence crosses one. Increasing; a 0 or an index past the end says
+/// nothing.
+struct WalkGaps {
+  std::vector<std::size_t> query;
+  std::vector<std::size_t> reference;
+
+  [[nodiscard]] bool empty() const { return query.empty() && reference.empty(); }
+};
+
+/// Keyframes [begin, end) of a walk.
+struct Stretch {
+  std::size_t begin = 0, end = 0;
+
+  bool operator==(const Stretch&) const = default;
+};
+
+/// The stretches of a walk of `count` keyframes between its gaps, in order; none for an empty walk. Throws
+/// `std::invalid_argument` if `gaps` does not increase.
+std::vector<Stretch> stretches_between(const std::vector<std::size_t>& gaps, std::size_t count);
+
+}  // namespace place

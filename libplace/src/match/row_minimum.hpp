@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace place {
+
+/// The least of a row, at its first place; `reference` is the row's size, and the cost infinite, where none
+/// is finite.
+struct RowMinimum {
+  std::size_t reference = 0;
+  float cost = 0;
+};
+RowMinimum row_minimum(std::span<const float> row);
+
+/// The least further than `window` from `from`; infinite if there is none.
+float minimum_outside(std::span<const float> row, std::size_t from, std::size_t window);
+
+}  // namespace place

@@ -1,0 +1,116 @@
+#include "support/drawn_costs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/match/search_cone.hpp>
+#include <place/match/search_lines.hpp>
+#include <vo/base/parallel.hpp>
+
+namespace {
+
+using place::SequenceSearchOptions;
+using test_support::chance_costs;
+using test_support::walked_costs;
+using testing::Each;
+using testing::Field;
+using testing::IsEmpty;
+
+/// The documented cost of a pair, from its cone cell by cell; infinite with too few terms.
+double brute_force_cost(const place::CostMatrix& costs, const SequenceSearchOptions& options, int q, int r) {
+  const auto lines = place::search_lines(options);
+  int votes = 0, terms = 0;
+  for (int k = 0; k < options.length; ++k) {
+    const int query = q + k - options.length / 2;
+    if (query < 0 || query >= static_cast<int>(costs.queries)) continue;
+    const auto row = costs.row(static_cast<std::size_t>(query));
+    const auto best = static_cast<int>(std::min_element(row.begin(), row.end()) - row.begin());
+    const auto at = static_cast<std::size_t>(k);
+    const int low = r + std::min(lines.front().offsets[at], lines.back().offsets[at]);
+    const int high = r + std::max(lines.front().offsets[at], lines.back().offsets[at]);
+    terms += static_cast<int>(high >= 0 && low < static_cast<int>(costs.references));
+    votes += static_cast<int>(best >= low && best <= high);
+  }
+  if (terms == 0 || terms < options.min_fraction * options.length)
+    return std::numeric_limits<double>::infinity();
+  return -votes / std::sqrt(1.0 * terms * options.length);
+}
+
+void expect_equal_to_brute_force(const place::CostMatrix& costs, const SequenceSearchOptions& options) {
+  const auto matches = place::search_cone(costs, options);
+  ASSERT_EQ(matches.size(), costs.queries);
+  constexpr double kRounding = 1e-6;  // of one square root and one product in float, of values up to 1
+  for (std::size_t q = 0; q < costs.queries; ++q) {
+    SCOPED_TRACE(q);
+    std::vector<double> pairs(costs.references);
+    for (std::size_t r = 0; r < pairs.size(); ++r)
+      pairs[r] = brute_force_cost(costs, options, static_cast<int>(q), static_cast<int>(r));
+    const double least = *std::min_element(pairs.begin(), pairs.end());
+    ASSERT_EQ(matches[q].reference.has_value(), least < 0);
+    if (!matches[q].reference) continue;
+    const std::size_t found = *matches[q].reference;
+    EXPECT_NEAR(matches[q].cost, least, kRounding);
+    EXPECT_NEAR(pairs[found], least, kRounding);
+    double elsewhere = 0;
+    for (std::size_t r = 0; r < pairs.size(); ++r) {
+      if (std::abs(pairs[r] - least) < kRounding) {
+        EXPECT_LE(costs.at(q, found), costs.at(q, r));
+      }
+      if (std::max(r, found) - std::min(r, found) > static_cast<std::size_t>(options.uniqueness_window))
+        elsewhere = std::min(elsewhere, pairs[r]);
+    }
+    EXPECT_NEAR(matches[q].score, elsewhere - least, kRounding);
+  }
+}
+
+TEST(SearchCone, EqualsBruteForce) {
+  for (const double range : {0.0, 0.1, 0.5}) {
+    for (const int length : {1, 2, 5, 10}) {
+      SCOPED_TRACE(testing::Message() << range << " rad, length " << length);
+      const SequenceSearchOptions options{
+          .length = length, .search_range_rad = range, .uniqueness_window = 3};
+      expect_equal_to_brute_force(walked_costs(14, 23, 4, 1.1, 1.5F, 7), options);
+      expect_equal_to_brute_force(chance_costs(9, 5, 8), options);
+    }
+  }
+}
+
+TEST(SearchCone, FindsAWalkThatChangesItsSpeed) {
+  // Half as fast again for five queries, then half as fast: no straight line holds more than a few.
+  place::CostMatrix costs = place::make_cost_matrix(10, 40);
+  const std::vector<std::size_t> places{10, 12, 13, 15, 16, 18, 18, 19, 19, 20};
+  for (std::size_t q = 0; q < places.size(); ++q) costs.row(q)[places[q]] = -1;
+  const auto matches = place::search_cone(costs, {.length = 10, .v_min = 0.4, .v_max = 1.8});
+  EXPECT_EQ(matches[5].reference, 18U);
+  EXPECT_FLOAT_EQ(matches[5].cost, -1);  // all ten vote for it
+  EXPECT_FLOAT_EQ(matches[5].score, 1);  // nothing else has any
+}
+
+TEST(SearchCone, GivesNothingForNothing) {
+  EXPECT_THAT(place::search_cone(place::make_cost_matrix(0, 5)), IsEmpty());
+  EXPECT_THAT(place::search_cone(place::make_cost_matrix(3, 0)),
+              Each(Field(&place::SequenceMatch::reference, std::nullopt)));
+}
+
+TEST(SearchCone, TakesTheOnlyReference) {
+  const auto matches = place::search_cone(place::make_cost_matrix(1, 1), {.length = 1});
+  EXPECT_EQ(matches[0].reference, 0U);
+  EXPECT_EQ(matches[0].cost, -1);
+}
+
+TEST(SearchCone, IsTheSameForAnyThreadCount) {
+  const auto costs = walked_costs(100, 80, 3, 0.7, 1.0F, 5);
+  vo::set_thread_count(1);
+  const auto one = place::search_cone(costs, {.length = 9, .search_range_rad = 0.4});
+  vo::set_thread_count(4);
+  const auto four = place::search_cone(costs, {.length = 9, .search_range_rad = 0.4});
+  vo::set_thread_count(0);
+  for (std::size_t q = 0; q < one.size(); ++q) EXPECT_TRUE(test_support::same(one[q], four[q])) << q;
+}
+
+}  // namespace
