@@ -4,6 +4,7 @@
 #include "place/match/search_cone.hpp"
 #include "place/match/search_graph.hpp"
 #include "place/match/search_hybrid.hpp"
+#include "place/match/search_path.hpp"
 #include "place/match/sequence_searcher.hpp"
 
 #include <array>
@@ -42,6 +43,8 @@ constexpr std::array kMethods{
                  &by_stretches<search_hybrid>},
     SearchMethod{"graph", "one cheapest path, looked for lazily, that may skip pictures that match nowhere",
                  &search_graph},
+    SearchMethod{"path", "the most probable place at each picture of one path through the whole walk",
+                 &search_path},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "place/match/search_graph.hpp"
 #include "place/match/search_lines.hpp"
+#include "place/match/search_path.hpp"
 #include "place/match/walk_gaps.hpp"
 
 namespace place {
@@ -10,6 +11,7 @@ namespace place {
 struct SearchOptions {
   SequenceSearchOptions sequence;
   GraphSearchOptions graph;
+  PathSearchOptions path;
   WalkGaps gaps;
 };
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace place {
+
+struct CostMatrix;
+struct SearchOptions;
+struct SearchResult;
+
+/// Settings of `search_path`.
+struct PathSearchOptions {
+  /// By query keyframe: how many reference keyframes the walk's own displacement since the one before is
+  /// worth, 0 or more. Empty: 1 each, as for two walks sampled to one spacing. The first says nothing.
+  std::vector<double> steps;
+  /// Standard deviation of a step of 1, in reference keyframes; it grows with the root of the step.
+  double step_deviation = 0.7;
+
+  /// False, with a reason that names field, value and constraint, if a field is out of its range.
+  bool is_valid(std::string* reason) const;
+};
+
+/// One path through the whole walk: a hidden Markov model whose states are the places of the reference and
+/// one that is off the route, as Hansen and Browning 2014 ("Visual place recognition using HMM sequence
+/// matching") but for the transitions, which here come from the walk's own displacement, and the state off
+/// the route.
+///
+/// From one query to the next the place goes on by s references with p(s) in proportion to exp(-(s - step)^2
+/// / (2 deviation^2)), s >= 0; it leaves the route with probability 0.01, and comes back anywhere with the
+/// same. A pair of cost c is exp(-(c + 1) / 2) times as probable on the route as off it: even at one
+/// deviation under the mean (the best of a few neighbours has as much by chance), and half as steep as
+/// independent normal costs would be, since neighbouring pictures err together. Costs beyond +-6 count as 6.
+///
+/// Forward and backward passes (Rabiner 1989) give the posterior of every place at every query, given the
+/// whole walk. The match is where the posterior, smoothed by a triangle of +-4 references, is highest: places
+/// side by side share what neither has alone. Its score is log(inside / outside), the posterior's mass up to
+/// `uniqueness_window` references from it over the mass elsewhere and off the route. `length` has no part in
+/// it. No step crosses a gap: a query's gap begins anew, a reference's ends the route.
+///
+/// O(queries * references * steps that are at all probable); one thread for each stretch of the query.
+/// Memory: 8 bytes for each reference and root of the queries. Throws `std::invalid_argument` for options
+/// that are not valid or steps that are not one for each query.
+SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options);
+
+}  // namespace place

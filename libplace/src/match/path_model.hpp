@@ -1,0 +1,53 @@
+#pragma once
+
+#include "place/match/search_path.hpp"
+#include "place/match/walk_gaps.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace place {
+
+/// The transitions and the likelihoods of `search_path`, applied to a row at a time. Rows are of `references`
+/// values; what a row is multiplied by as a whole does not matter, so a factor rides along.
+class PathModel {
+ public:
+  static constexpr double kLeave = 0.01;  ///< probability of leaving the route, and of coming back, a query
+
+  PathModel(const PathSearchOptions& options, std::vector<Stretch> references, std::size_t count);
+
+  /// A row of the posterior's factors: on the route, and off it.
+  struct Row {
+    std::vector<float> on;
+    double off = 0;
+    double scale = 1;  ///< both are to be multiplied by this
+  };
+
+  /// How much more probable each pair of a query is on the route than off it.
+  void likelihoods(std::span<const float> costs, std::span<float> out) const;
+
+  /// The first query's, before anything is known.
+  void begin(std::span<const float> likelihoods, Row& row) const;
+  /// From a query's row to the next one's.
+  void forward(std::size_t query, const Row& before, std::span<const float> likelihoods, Row& row) const;
+  /// From a query's row to that of the one before; `work` holds a row.
+  void backward(std::size_t query, const Row& after, std::span<const float> likelihoods, Row& row,
+                std::vector<float>& work) const;
+
+ private:
+  /// p(s) for s = first, first + 1, ...
+  struct Steps {
+    std::size_t first = 0;
+    std::vector<float> probability;
+  };
+  [[nodiscard]] const Steps& steps_to(std::size_t query) const {
+    return steps_.size() == 1 ? steps_.front() : steps_[query];
+  }
+
+  std::vector<Stretch> references_;
+  std::size_t count_;
+  std::vector<Steps> steps_;  // by query, or one for all
+};
+
+}  // namespace place
