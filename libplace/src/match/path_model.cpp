@@ -1,69 +1,10 @@
 #include "match/path_model.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace place {
-namespace {
-
-constexpr std::size_t kLanes = 16;
-
-/// 2^x for |x| < 126, to 4e-6 of itself: the nearest whole power, times a polynomial for the rest in
-/// [-1/2, 1/2]. Written so that compilers make vectors of it.
-inline float exp2_of(float x) {
-  constexpr float kMagic = 12582912;  // 1.5 * 2^23: adding it rounds to a whole number
-  const float shifted = x + kMagic;
-  const float rest = x - (shifted - kMagic);
-  const auto power = std::bit_cast<std::int32_t>(shifted) << 23;
-  // Taylor's series of 2^x; the sixth term is below 2e-5 * 0.5^5.
-  const float value =
-      1 +
-      rest * (0.69314718F +
-              rest * (0.24022651F + rest * (0.055504109F + rest * (0.0096181291F + rest * 0.0013333558F))));
-  return std::bit_cast<float>(std::bit_cast<std::int32_t>(value) + power);
-}
-
-/// to[i] = floor + sum over k of taps[k] * from[i + k], i < count: from the first to the last tap. Four taps
-/// are as many as a walk of even spacing has.
-void convolve(const float* from, std::size_t count, std::span<const float> taps, float floor, float* to) {
-  if (taps.size() == 4) {
-    const float a = taps[0], b = taps[1], c = taps[2], d = taps[3];
-    for (std::size_t i = 0; i < count; ++i)
-      to[i] = floor + a * from[i] + b * from[i + 1] + c * from[i + 2] + d * from[i + 3];
-    return;
-  }
-  for (std::size_t i = 0; i < count; ++i) to[i] = floor;
-  for (std::size_t k = 0; k < taps.size(); ++k) {
-    const float tap = taps[k];
-    for (std::size_t i = 0; i < count; ++i) to[i] += tap * from[i + k];
-  }
-}
-
-/// Multiplies `row` by `by` and returns the sum.
-double multiply(std::span<float> row, std::span<const float> by) {
-  std::array<float, kLanes> lanes{};
-  std::size_t i = 0;
-  for (; i + kLanes <= row.size(); i += kLanes) {
-    for (std::size_t j = 0; j < kLanes; ++j) {
-      row[i + j] *= by[i + j];
-      lanes[j] += row[i + j];
-    }
-  }
-  double sum = 0;
-  for (const float lane : lanes) sum += static_cast<double>(lane);
-  for (; i < row.size(); ++i) {
-    row[i] *= by[i];
-    sum += static_cast<double>(row[i]);
-  }
-  return sum;
-}
-
-}  // namespace
-
 PathModel::PathModel(const PathSearchOptions& options, std::vector<Stretch> references, std::size_t count)
     : references_(std::move(references)), count_(count) {
   const std::vector<double> even{1};
@@ -87,17 +28,13 @@ PathModel::PathModel(const PathSearchOptions& options, std::vector<Stretch> refe
 
 void PathModel::likelihoods(std::span<const float> costs, std::span<float> out) const {
   constexpr float kSteepness = 0.5F, kEven = -1, kFurthest = 6, kLog2E = 1.44269504F;
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    const float above = costs[i] > -kFurthest ? costs[i] : -kFurthest;
-    const float cost = above < kFurthest ? above : kFurthest;
-    out[i] = exp2_of((kEven - cost) * (kSteepness * kLog2E));
-  }
+  kernels_.likelihoods(costs.data(), costs.size(), kEven, kSteepness * kLog2E, kFurthest, out.data());
 }
 
 void PathModel::begin(std::span<const float> likelihoods, Row& row) const {
   row.on.assign(count_, static_cast<float>(0.5 / static_cast<double>(count_)));
   row.off = 0.5;
-  row.scale = 1 / (row.off + multiply(row.on, likelihoods));
+  row.scale = 1 / (row.off + kernels_.multiply(row.on.data(), likelihoods.data(), count_, row.on.data()));
 }
 
 void PathModel::forward(std::size_t query, const Row& before, std::span<const float> likelihoods,
@@ -122,8 +59,8 @@ void PathModel::forward(std::size_t query, const Row& before, std::span<const fl
       row.on[r] = sum;
     }
     if (end - begin > widest)
-      convolve(from + begin, end - begin - widest, taps, static_cast<float>(comes_back),
-               row.on.data() + begin + widest);
+      kernels_.convolve(from + begin, end - begin - widest, taps.data(), taps.size(),
+                        static_cast<float>(comes_back), row.on.data() + begin + widest);
     for (std::size_t r = end - std::min(end - begin, widest); r < end; ++r) {
       for (std::size_t k = 0; k < steps.probability.size(); ++k) {
         if (r + steps.first + k >= end)
@@ -134,15 +71,16 @@ void PathModel::forward(std::size_t query, const Row& before, std::span<const fl
   past_end *= before.scale;
   const double on = 1 - off - past_end;  // rows of this pass add up to 1
   row.off = off * (1 - kLeave) + kLeave * on + past_end;
-  row.scale = 1 / (row.off + multiply(row.on, likelihoods));
+  row.scale = 1 / (row.off + kernels_.multiply(row.on.data(), likelihoods.data(), count_, row.on.data()));
 }
 
 void PathModel::backward(std::size_t query, const Row& after, std::span<const float> likelihoods, Row& row,
                          std::vector<float>& work) const {
   const Steps& steps = steps_to(query);
   const std::size_t widest = steps.first + steps.probability.size() - 1;
-  work.assign(after.on.begin(), after.on.end());
-  const double mean = multiply(work, likelihoods) / static_cast<double>(count_) * after.scale;
+  work.resize(count_);
+  const double mean = kernels_.multiply(after.on.data(), likelihoods.data(), count_, work.data()) /
+                      static_cast<double>(count_) * after.scale;
   const double off = after.off * after.scale;
   std::vector<float> taps(steps.probability.size());
   for (std::size_t k = 0; k < taps.size(); ++k)
@@ -151,7 +89,8 @@ void PathModel::backward(std::size_t query, const Row& after, std::span<const fl
   row.on.resize(count_);
   for (const auto& [begin, end] : references_) {
     const std::size_t whole = end - begin > widest ? end - begin - widest : 0;
-    convolve(work.data() + begin + steps.first, whole, taps, leaves, row.on.data() + begin);
+    kernels_.convolve(work.data() + begin + steps.first, whole, taps.data(), taps.size(), leaves,
+                      row.on.data() + begin);
     for (std::size_t r = begin + whole; r < end; ++r) {
       float sum = leaves;
       for (std::size_t k = 0; k < taps.size(); ++k) {

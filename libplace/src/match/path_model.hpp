@@ -1,5 +1,6 @@
 #pragma once
 
+#include "match/kernels/path_rows.hpp"
 #include "place/match/search_path.hpp"
 #include "place/match/walk_gaps.hpp"
 
@@ -45,6 +46,7 @@ class PathModel {
     return steps_.size() == 1 ? steps_.front() : steps_[query];
   }
 
+  const kernels::PathKernels& kernels_ = kernels::path_kernels();
   std::vector<Stretch> references_;
   std::size_t count_;
   std::vector<Steps> steps_;  // by query, or one for all

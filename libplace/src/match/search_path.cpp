@@ -1,10 +1,10 @@
 #include "place/match/search_path.hpp"
 
+#include "match/kernels/path_rows.hpp"
 #include "match/path_model.hpp"
 #include "place/match/search_method.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -22,31 +22,15 @@ constexpr std::ptrdiff_t kTriangle = 4;  // references, to either side, where it
 /// is passed over.
 class Posterior {
  public:
-  static constexpr std::size_t kChunk = 64, kLanes = 16;
+  static constexpr std::size_t kChunk = 64;
 
   void set(const PathModel::Row& forward, const PathModel::Row& backward) {
     values_.resize(forward.on.size());
     chunks_.clear();
     for (std::size_t begin = 0; begin < values_.size(); begin += kChunk) {
-      const std::size_t end = std::min(values_.size(), begin + kChunk);
-      std::array<float, kLanes> sum{}, most{};
-      std::size_t i = begin;
-      for (; i + kLanes <= end; i += kLanes) {
-        for (std::size_t j = 0; j < kLanes; ++j) {
-          const float value = forward.on[i + j] * backward.on[i + j];
-          values_[i + j] = value;
-          sum[j] += value;
-          most[j] = most[j] < value ? value : most[j];
-        }
-      }
-      for (std::size_t j = 0; i < end; ++i, ++j) {
-        values_[i] = forward.on[i] * backward.on[i];
-        sum[j] += values_[i];
-        most[j] = std::max(most[j], values_[i]);
-      }
-      double total = 0;
-      for (const float lane : sum) total += static_cast<double>(lane);
-      chunks_.push_back({total, *std::ranges::max_element(most)});
+      chunks_.push_back(kernels_.multiply_chunk(forward.on.data() + begin, backward.on.data() + begin,
+                                                std::min(kChunk, values_.size() - begin),
+                                                values_.data() + begin));
     }
     off_ = forward.off * backward.off;
   }
@@ -54,7 +38,7 @@ class Posterior {
   /// Where the triangle holds most; the first of equals.
   [[nodiscard]] std::size_t peak() const {
     float most = 0;
-    for (const Chunk& chunk : chunks_) most = std::max(most, chunk.most);
+    for (const kernels::ChunkTotals& chunk : chunks_) most = std::max(most, chunk.most);
     // A triangle holds at most its weights' sum, kTriangle, times the highest value under it: only those with
     // a value of a kTriangle-th of what the best is known to hold can be better.
     float best = most;
@@ -91,11 +75,6 @@ class Posterior {
   }
 
  private:
-  struct Chunk {
-    double sum;
-    float most;
-  };
-
   [[nodiscard]] float triangle(std::size_t at) const {
     const auto centre = static_cast<std::ptrdiff_t>(at), count = static_cast<std::ptrdiff_t>(values_.size());
     float sum = 0;
@@ -107,8 +86,9 @@ class Posterior {
     return sum;
   }
 
+  const kernels::PathKernels& kernels_ = kernels::path_kernels();
   std::vector<float> values_;
-  std::vector<Chunk> chunks_;
+  std::vector<kernels::ChunkTotals> chunks_;
   double off_ = 0;
 };
 
