@@ -134,10 +134,9 @@ class LazySearch {
     if (reached_[node.query - queries_.begin].at(node.reference).path_cost < node.path_cost) return false;
     if (!is_worth_expanding(node)) return false;
     const auto fan = static_cast<std::size_t>(settings_.fan_out);
-    const Stretch& bounds = bounds_[node.reference];
-    const std::size_t first = std::max(bounds.begin, node.reference - std::min(node.reference, fan));
-    const std::size_t past = std::min(bounds.end, node.reference + fan + 1);
-    for (std::size_t r = first; r < past; ++r) reach(node.query + 1, r, node.path_cost, node.reference);
+    const std::size_t past = std::min(bounds_[node.reference].end, node.reference + fan + 1);
+    for (std::size_t r = node.reference; r < past; ++r)
+      reach(node.query + 1, r, node.path_cost, node.reference);
     last_expanded_ = node.query;
     return true;
   }

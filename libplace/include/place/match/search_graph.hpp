@@ -10,7 +10,7 @@ struct SearchResult;
 
 /// Settings of `search_graph`.
 struct GraphSearchOptions {
-  int fan_out = 5;  ///< references on either side of a node's that the next query may be at (the paper's K)
+  int fan_out = 5;  ///< references past a node's that the next query may be at (the paper's K)
   /// Deviations of the enhanced cost: a dearer pair is passed as a hidden node, a picture that matches
   /// nothing (the paper's non-matching cost). One under the mean: a sixth of all pairs are as alike by
   /// chance.
@@ -25,9 +25,10 @@ struct GraphSearchOptions {
 
 /// Lazy graph search (Vysotska and Stachniss 2016, "Lazy data association for image sequences matching under
 /// substantial appearance changes"; SSS 7 names it as an alternative): one path through the whole walk, the
-/// cheapest chain of (query, reference) nodes in which the reference goes on by up to `fan_out` either way
-/// with every query. Nodes are expanded in the order of their path's cost, and only while they can still
-/// compete with the best, so most cells are never looked at.
+/// cheapest chain of (query, reference) nodes in which the reference goes on by 0 to `fan_out` with every
+/// query; the paper also lets it go back, but then a walk played backwards is found as well and no match is
+/// known to be wrong (`decoy_scores`). Nodes are expanded in the order of their path's cost, and only while
+/// they can still compete with the best, so most cells are never looked at.
 ///
 /// A node costs 1 / z (the paper's edge weight), z = exp(-cost) the likeness, but no more than a hidden node,
 /// exp(hidden_cost). Where four fifths of the last five nodes are hidden the walk counts as lost, as where it

@@ -25,6 +25,9 @@ struct SearchMethod {
   /// of `options.gaps`. The same bytes for any number of threads. Throws `std::invalid_argument` for options
   /// that are not valid.
   SearchResult (*search)(const CostMatrix& enhanced, const SearchOptions& options);
+  /// Below this quantile of the scores that wrong matches have, hardly any right one scores
+  /// (`MatchProbabilityOptions`).
+  double decoy_quantile = 0.5;
 };
 
 /// All search methods; the first is the default.
