@@ -9,7 +9,7 @@ PathModel::PathModel(const PathSearchOptions& options, std::vector<Stretch> refe
     : references_(std::move(references)), count_(count) {
   const std::vector<double> even{1};
   for (const double step : options.steps.empty() ? even : options.steps) {
-    // Steps past three deviations and a bit are left out, so that a step of 1 has 0 .. 3.
+    // Steps past three deviations and a bit are left out, so that a step of 1 has 0 .. 4.
     constexpr double kDeviations = 3.2;
     const double deviation = options.step_deviation * std::sqrt(std::max(1.0, step));
     const double low = std::max(0.0, std::ceil(step - kDeviations * deviation));

@@ -14,8 +14,9 @@ struct PathSearchOptions {
   /// By query keyframe: how many reference keyframes the walk's own displacement since the one before is
   /// worth, 0 or more. Empty: 1 each, as for two walks sampled to one spacing. The first says nothing.
   std::vector<double> steps;
-  /// Standard deviation of a step of 1, in reference keyframes; it grows with the root of the step.
-  double step_deviation = 0.7;
+  /// Standard deviation of a step of 1, in reference keyframes; it grows with the root of the step. 0.7 is
+  /// enough for walks that are sampled to one spacing, 1.2 is better where every so many frames are taken.
+  double step_deviation = 1;
 
   /// False, with a reason that names field, value and constraint, if a field is out of its range.
   bool is_valid(std::string* reason) const;

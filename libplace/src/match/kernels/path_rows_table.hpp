@@ -35,10 +35,10 @@ inline void likelihoods(const float* costs, std::size_t count, float even, float
 
 inline void convolve(const float* from, std::size_t count, const float* taps, std::size_t tap_count,
                      float floor, float* __restrict to) {
-  if (tap_count == 4) {  // what a walk of even spacing has
-    const float a = taps[0], b = taps[1], c = taps[2], d = taps[3];
+  if (tap_count == 5) {  // what a walk of even spacing has
+    const float a = taps[0], b = taps[1], c = taps[2], d = taps[3], e = taps[4];
     for (std::size_t i = 0; i < count; ++i)
-      to[i] = floor + a * from[i] + b * from[i + 1] + c * from[i + 2] + d * from[i + 3];
+      to[i] = floor + a * from[i] + b * from[i + 1] + c * from[i + 2] + d * from[i + 3] + e * from[i + 4];
     return;
   }
   for (std::size_t i = 0; i < count; ++i) to[i] = floor;

@@ -149,9 +149,9 @@ TEST(SearchPath, EqualsBruteForceOverManyChunks) {
 }
 
 TEST(SearchPath, FindsAWalkThatNoSinglePictureShows) {
-  // A true place's cost lies between -3.75 and 0.25, and those of 200 others between -2 and 2: of one picture
-  // in two some of them are lower.
-  const auto costs = walked_costs(100, 200, 40, 1, 1.75F, 9);
+  // A true place's cost lies between -4.25 and -0.25, those of 200 others between -2 and 2: of two pictures
+  // in five some of them are lower.
+  const auto costs = walked_costs(100, 200, 40, 1, 2.25F, 9);
   const auto result = place::search_path(costs, {});
   std::size_t right = 0;
   for (std::size_t q = 0; q < costs.queries; ++q) {
