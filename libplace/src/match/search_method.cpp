@@ -44,7 +44,7 @@ constexpr std::array kMethods{
     SearchMethod{"graph", "one cheapest path, looked for lazily, that may skip pictures that match nowhere",
                  &search_graph},
     SearchMethod{"path", "the most probable place at each picture of one path through the whole walk",
-                 &search_path, 0.9},
+                 &search_path, 0.9, true},
 };
 
 }  // namespace

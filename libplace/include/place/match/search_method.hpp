@@ -28,6 +28,7 @@ struct SearchMethod {
   /// Below this quantile of the scores that wrong matches have, hardly any right one scores
   /// (`MatchProbabilityOptions`).
   double decoy_quantile = 0.5;
+  bool scores_are_log_odds = false;  ///< a score is log(p / (1 - p)) of a probability p of its own
 };
 
 /// All search methods; the first is the default.

@@ -1,0 +1,93 @@
+#include "support/drawn_costs.hpp"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/certainty/decoy_search.hpp>
+#include <place/certainty/place_spread.hpp>
+#include <place/certainty/sure_search.hpp>
+#include <vo/base/parallel.hpp>
+
+namespace {
+
+using place::ProbabilitySource;
+using place::search_method;
+using place::search_surely;
+using place::SureMatch;
+using test_support::chance_costs;
+using test_support::walked_costs;
+using testing::IsEmpty;
+
+TEST(SearchSurely, JoinsWhatItsStagesFind) {
+  const auto costs = walked_costs(60, 80, 10, 1, 2.5F, 1);
+  const place::SearchMethod& method = search_method("lines");
+  const auto sure = search_surely(costs, method, {});
+  const auto matches = method.search(costs, {}).matches;
+  const auto spread = place::place_spread(costs, matches);
+  std::vector<double> scores;
+  for (const auto& match : matches) scores.push_back(match.score);
+  const auto probabilities = place::match_probabilities(scores, place::decoy_scores(costs, method, {}),
+                                                        {.decoy_quantile = method.decoy_quantile});
+  ASSERT_EQ(sure.source, ProbabilitySource::kDecoys);
+  EXPECT_EQ(sure.wrong_share, probabilities.wrong_share);
+  for (std::size_t q = 0; q < matches.size(); ++q) {
+    EXPECT_TRUE(test_support::same(sure.matches[q].match, matches[q])) << q;
+    EXPECT_EQ(sure.matches[q].sd_keyframes, spread[q]) << q;
+    EXPECT_EQ(sure.matches[q].probability, probabilities.probability[q]) << q;
+  }
+}
+
+TEST(SearchSurely, IsSureOfAPlainWalkAndOfNoOther) {
+  for (const place::SearchMethod& method : place::search_methods()) {
+    for (const SureMatch& match : search_surely(walked_costs(100, 140, 20, 1, 4.0F, 2), method, {}).matches)
+      EXPECT_GT(match.probability.value_or(0), 0.9) << method.name;
+    // Of a hundred chance matches some look good; that many do not.
+    std::size_t sure = 0;
+    for (const SureMatch& match : search_surely(chance_costs(100, 140, 3), method, {}).matches)
+      sure += static_cast<std::size_t>(match.probability.value_or(0) > 0.9);
+    EXPECT_LE(sure, 10U) << method.name;
+  }
+}
+
+TEST(SearchSurely, OfAShortWalkGivesWhatTheSearchHas) {
+  const auto costs = walked_costs(6, 40, 20, 1, 5.0F, 4);
+  const auto lines = search_surely(costs, search_method("lines"), {});
+  EXPECT_EQ(lines.source, ProbabilitySource::kNone);
+  EXPECT_EQ(lines.matches[3].match.reference, 23U);
+  EXPECT_EQ(lines.matches[3].probability, std::nullopt);
+  EXPECT_TRUE(lines.matches[3].sd_keyframes);
+  const auto path = search_surely(costs, search_method("path"), {});
+  EXPECT_EQ(path.source, ProbabilitySource::kSearch);
+  for (const SureMatch& match : path.matches)
+    EXPECT_DOUBLE_EQ(*match.probability, 1 / (1 + std::exp(-static_cast<double>(match.match.score))));
+}
+
+TEST(SearchSurely, GivesNothingForNothing) {
+  for (const place::SearchMethod& method : place::search_methods()) {
+    EXPECT_THAT(search_surely(place::make_cost_matrix(0, 4), method, {}).matches, IsEmpty());
+    const auto none = search_surely(place::make_cost_matrix(3, 0), method, {});
+    EXPECT_EQ(none.source, ProbabilitySource::kNone);
+    EXPECT_EQ(none.matches[0].probability, std::nullopt);
+  }
+}
+
+TEST(SearchSurely, IsTheSameForAnyThreadCount) {
+  const auto costs = walked_costs(80, 60, 0, 0.7, 1.5F, 5);
+  for (const place::SearchMethod& method : place::search_methods()) {
+    vo::set_thread_count(1);
+    const auto one = search_surely(costs, method, {});
+    vo::set_thread_count(4);
+    const auto four = search_surely(costs, method, {});
+    vo::set_thread_count(0);
+    for (std::size_t q = 0; q < costs.queries; ++q) {
+      EXPECT_TRUE(test_support::same(one.matches[q].match, four.matches[q].match)) << method.name << q;
+      EXPECT_EQ(one.matches[q].probability, four.matches[q].probability) << method.name << q;
+    }
+  }
+}
+
+}  // namespace
