@@ -2,26 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace place {
-PathModel::PathModel(const PathSearchOptions& options, std::vector<Stretch> references, std::size_t count)
+PathModel::PathModel(const PathSearchOptions& options, const SequenceSearchOptions& sequence,
+                     std::vector<Stretch> references, std::size_t count)
     : references_(std::move(references)), count_(count) {
+  constexpr double kMostOften = 0.1;  // with sequences of one keyframe
+  leave_ = kMostOften / sequence.length;
+  const double range = sequence.search_range_rad, quarter = std::numbers::pi / 4;
+  const double low = sequence.v_min.value_or(std::tan(quarter - range));
+  const double high = sequence.v_max.value_or(std::tan(quarter + range));
+  constexpr double kSampling = 0.98, kWidest = 5;
+  const double middle = sequence.v_min ? (low + high) / 2 : 1;
+  const double unit_deviation = std::hypot(kSampling, std::min(kWidest, (high - low) / 2));
   const std::vector<double> even{1};
-  for (const double step : options.steps.empty() ? even : options.steps) {
+  for (const double relative : options.steps.empty() ? even : options.steps) {
     // Steps past three deviations and a bit are left out, so that a step of 1 has 0 .. 4.
     constexpr double kDeviations = 3.2;
-    const double deviation = options.step_deviation * std::sqrt(std::max(1.0, step));
-    const double low = std::max(0.0, std::ceil(step - kDeviations * deviation));
-    const double high = std::max(low, std::floor(step + kDeviations * deviation));
+    const double step = relative * middle;
+    const double deviation = unit_deviation * std::sqrt(std::max(1.0, step));
+    const double least = std::max(0.0, std::ceil(step - kDeviations * deviation));
+    const double most = std::max(least, std::floor(step + kDeviations * deviation));
     std::vector<double> weights;
     double sum = 0;
-    for (double s = low; s <= high; ++s) {
+    for (double s = least; s <= most; ++s) {
       weights.push_back(std::exp(-(s - step) * (s - step) / (2 * deviation * deviation)));
       sum += weights.back();
     }
     Steps& steps = steps_.emplace_back();
-    steps.first = static_cast<std::size_t>(low);
+    steps.first = static_cast<std::size_t>(least);
     for (const double weight : weights) steps.probability.push_back(static_cast<float>(weight / sum));
   }
 }
@@ -42,11 +53,11 @@ void PathModel::forward(std::size_t query, const Row& before, std::span<const fl
   const Steps& steps = steps_to(query);
   const std::size_t widest = steps.first + steps.probability.size() - 1;
   const double off = before.off * before.scale;
-  const double comes_back = kLeave * off / static_cast<double>(count_);
+  const double comes_back = leave_ * off / static_cast<double>(count_);
   // A reference takes from those before it: the taps turned round.
   std::vector<float> taps(steps.probability.size());
   for (std::size_t k = 0; k < taps.size(); ++k)
-    taps[k] = static_cast<float>((1 - kLeave) * before.scale) * steps.probability[taps.size() - 1 - k];
+    taps[k] = static_cast<float>((1 - leave_) * before.scale) * steps.probability[taps.size() - 1 - k];
   row.on.resize(count_);
   double past_end = 0;
   for (const auto& [begin, end] : references_) {
@@ -70,7 +81,7 @@ void PathModel::forward(std::size_t query, const Row& before, std::span<const fl
   }
   past_end *= before.scale;
   const double on = 1 - off - past_end;  // rows of this pass add up to 1
-  row.off = off * (1 - kLeave) + kLeave * on + past_end;
+  row.off = off * (1 - leave_) + leave_ * on + past_end;
   row.scale = 1 / (row.off + kernels_.multiply(row.on.data(), likelihoods.data(), count_, row.on.data()));
 }
 
@@ -84,8 +95,8 @@ void PathModel::backward(std::size_t query, const Row& after, std::span<const fl
   const double off = after.off * after.scale;
   std::vector<float> taps(steps.probability.size());
   for (std::size_t k = 0; k < taps.size(); ++k)
-    taps[k] = static_cast<float>((1 - kLeave) * after.scale) * steps.probability[k];
-  const auto leaves = static_cast<float>(kLeave * off);
+    taps[k] = static_cast<float>((1 - leave_) * after.scale) * steps.probability[k];
+  const auto leaves = static_cast<float>(leave_ * off);
   row.on.resize(count_);
   for (const auto& [begin, end] : references_) {
     const std::size_t whole = end - begin > widest ? end - begin - widest : 0;
@@ -95,13 +106,13 @@ void PathModel::backward(std::size_t query, const Row& after, std::span<const fl
       float sum = leaves;
       for (std::size_t k = 0; k < taps.size(); ++k) {
         const std::size_t to = r + steps.first + k;
-        // Past the end is off the route for certain, not with kLeave.
-        sum += to < end ? taps[k] * work[to] : static_cast<float>((1 - kLeave) * off) * steps.probability[k];
+        // Past the end is off the route for certain, not with leave_.
+        sum += to < end ? taps[k] * work[to] : static_cast<float>((1 - leave_) * off) * steps.probability[k];
       }
       row.on[r] = sum;
     }
   }
-  row.off = (1 - kLeave) * off + kLeave * mean;
+  row.off = (1 - leave_) * off + leave_ * mean;
   row.scale = 1 / std::max(row.off, mean);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "match/kernels/path_rows.hpp"
+#include "place/match/search_lines.hpp"
 #include "place/match/search_path.hpp"
 #include "place/match/walk_gaps.hpp"
 
@@ -14,9 +15,9 @@ namespace place {
 /// values; what a row is multiplied by as a whole does not matter, so a factor rides along.
 class PathModel {
  public:
-  static constexpr double kLeave = 0.01;  ///< probability of leaving the route, and of coming back, a query
-
-  PathModel(const PathSearchOptions& options, std::vector<Stretch> references, std::size_t count);
+  /// Both options must be valid.
+  PathModel(const PathSearchOptions& options, const SequenceSearchOptions& sequence,
+            std::vector<Stretch> references, std::size_t count);
 
   /// A row of the posterior's factors: on the route, and off it.
   struct Row {
@@ -50,6 +51,7 @@ class PathModel {
   std::vector<Stretch> references_;
   std::size_t count_;
   std::vector<Steps> steps_;  // by query, or one for all
+  double leave_;              // probability of leaving the route, and of coming back, at a query
 };
 
 }  // namespace place

@@ -161,9 +161,6 @@ bool PathSearchOptions::is_valid(std::string* reason) const {
     if (!(step >= 0 && step <= kLongest))
       return invalid(fmt::format("a step is {} references; 0 <= step <= {} expected", step, kLongest));
   }
-  if (!(step_deviation > 0 && step_deviation <= kLongest))
-    return invalid(fmt::format("step deviation is {} references; 0 < deviation <= {} expected",
-                               step_deviation, kLongest));
   return true;
 }
 
@@ -176,8 +173,8 @@ SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& option
   SearchResult result;
   result.matches.resize(enhanced.queries);
   if (enhanced.values.empty()) return result;
-  const PathModel model(options.path, stretches_between(options.gaps.reference, enhanced.references),
-                        enhanced.references);
+  const PathModel model(options.path, options.sequence,
+                        stretches_between(options.gaps.reference, enhanced.references), enhanced.references);
   const std::vector<Stretch> stretches = stretches_between(options.gaps.query, enhanced.queries);
   vo::parallel_for(stretches.size(), [&](std::size_t i) {
     search_stretch(enhanced, options, model, stretches[i], result.matches);

@@ -14,9 +14,6 @@ struct PathSearchOptions {
   /// By query keyframe: how many reference keyframes the walk's own displacement since the one before is
   /// worth, 0 or more. Empty: 1 each, as for two walks sampled to one spacing. The first says nothing.
   std::vector<double> steps;
-  /// Standard deviation of a step of 1, in reference keyframes; it grows with the root of the step. 0.7 is
-  /// enough for walks that are sampled to one spacing, 1.2 is better where every so many frames are taken.
-  double step_deviation = 1;
 
   /// False, with a reason that names field, value and constraint, if a field is out of its range.
   bool is_valid(std::string* reason) const;
@@ -28,16 +25,20 @@ struct PathSearchOptions {
 /// the route.
 ///
 /// From one query to the next the place goes on by s references with p(s) in proportion to exp(-(s - step)^2
-/// / (2 deviation^2)), s >= 0; it leaves the route with probability 0.01, and comes back anywhere with the
-/// same. A pair of cost c is exp(-(c + 1) / 2) times as probable on the route as off it: even at one
-/// deviation under the mean (the best of a few neighbours has as much by chance), and half as steep as
-/// independent normal costs would be, since neighbouring pictures err together. Costs beyond +-6 count as 6.
+/// / (2 deviation^2)), s >= 0. The search range of `options.sequence` says how far speeds may differ: the
+/// step is the middle of the range (1, or that of v_min and v_max) times `PathSearchOptions::steps`; the
+/// deviation is sqrt(max(1, step) (0.98^2 + h^2)), h half the range of slopes and no more than 5: 1 for the
+/// default range and an even walk. A walk leaves the route with probability 0.1 / length, and comes back
+/// anywhere with the same: a stretch along the route lasts ten sequences on average. A pair of cost c is
+/// exp(-(c + 1) / 2) times as probable on the route as off it: even at one deviation under the mean (the best
+/// of a few neighbours has as much by chance), and half as steep as independent normal costs would be, since
+/// neighbouring pictures err together. Costs beyond +-6 count as 6.
 ///
 /// Forward and backward passes (Rabiner 1989) give the posterior of every place at every query, given the
 /// whole walk. The match is where the posterior, smoothed by a triangle of +-4 references, is highest: places
 /// side by side share what neither has alone. Its score is log(inside / outside), the posterior's mass up to
-/// `uniqueness_window` references from it over the mass elsewhere and off the route. `length` has no part in
-/// it. No step crosses a gap: a query's gap begins anew, a reference's ends the route.
+/// `uniqueness_window` references from it over the mass elsewhere and off the route. No step crosses a gap: a
+/// query's gap begins anew, a reference's ends the route.
 ///
 /// O(queries * references * steps that are at all probable); one thread for each stretch of the query.
 /// Memory: 8 bytes for each reference and root of the queries. Throws `std::invalid_argument` for options

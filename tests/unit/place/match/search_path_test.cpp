@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -33,10 +34,16 @@ std::vector<std::vector<double>> brute_force_posteriors(const place::CostMatrix&
   const auto crosses = [](const std::vector<std::size_t>& gaps, std::size_t from, std::size_t to) {
     return std::ranges::any_of(gaps, [&](std::size_t gap) { return gap > from && gap <= to; });
   };
+  const double leave = 0.1 / options.sequence.length;
+  const double range = options.sequence.search_range_rad, quarter = std::numbers::pi / 4;
+  const double slowest = options.sequence.v_min.value_or(std::tan(quarter - range));
+  const double fastest = options.sequence.v_max.value_or(std::tan(quarter + range));
+  const double middle = options.sequence.v_min ? (slowest + fastest) / 2 : 1;
+  const double half = std::min(5.0, (fastest - slowest) / 2);
   const auto transition = [&](std::size_t q, std::size_t from, std::size_t to) {
-    if (from == off) return to == off ? 0.99 : 0.01 / static_cast<double>(references);
-    const double step = options.path.steps.empty() ? 1 : options.path.steps[q];
-    const double deviation = options.path.step_deviation * std::sqrt(std::max(1.0, step));
+    if (from == off) return to == off ? 1 - leave : leave / static_cast<double>(references);
+    const double step = middle * (options.path.steps.empty() ? 1 : options.path.steps[q]);
+    const double deviation = std::sqrt(std::max(1.0, step) * (0.98 * 0.98 + half * half));
     double all = 0, inside = 0, here = 0;
     for (int s = 0; s <= step + 3.2 * deviation; ++s) {
       if (s < step - 3.2 * deviation) continue;
@@ -47,7 +54,7 @@ std::vector<std::vector<double>> brute_force_posteriors(const place::CostMatrix&
       inside += p;
       if (at == to) here = p;
     }
-    return to == off ? 1 - 0.99 * inside / all : 0.99 * here / all;
+    return to == off ? 1 - (1 - leave) * inside / all : (1 - leave) * here / all;
   };
   std::vector<std::vector<double>> posteriors(queries, std::vector<double>(references + 1));
   for (const place::Stretch& stretch : place::stretches_between(options.gaps.query, queries)) {
@@ -138,8 +145,16 @@ TEST(SearchPath, EqualsBruteForceForAnySteps) {
   SearchOptions options;
   for (int q = 0; q < 25; ++q) options.path.steps.push_back(std::floor(rng.uniform(0, 24)) / 4);
   options.path.steps[7] = 60;  // past the reference
-  options.path.step_deviation = 0.4;
   expect_equal_to_brute_force(walked_costs(25, 40, 0, 1.5, 2.0F, 6), options);
+}
+
+TEST(SearchPath, EqualsBruteForceForAnyRangeAndLength) {
+  const auto costs = walked_costs(25, 40, 0, 1.5, 2.0F, 11);
+  for (const int length : {1, 3, 40}) {
+    expect_equal_to_brute_force(costs, {.sequence = {.length = length, .search_range_rad = 0}});
+    expect_equal_to_brute_force(costs, {.sequence = {.length = length, .search_range_rad = 0.7}});
+    expect_equal_to_brute_force(costs, {.sequence = {.length = length, .v_min = 1.2, .v_max = 2}});
+  }
 }
 
 TEST(SearchPath, EqualsBruteForceOverManyChunks) {
@@ -228,7 +243,6 @@ TEST(SearchPath, RefusesOptionsThatAreNotValid) {
   const auto costs = place::make_cost_matrix(3, 3);
   EXPECT_THROW(place::search_path(costs, {.path = {.steps = {1, 1}}}), std::invalid_argument);
   EXPECT_THROW(place::search_path(costs, {.path = {.steps = {1, -1, 1}}}), std::invalid_argument);
-  EXPECT_THROW(place::search_path(costs, {.path = {.step_deviation = 0}}), std::invalid_argument);
   EXPECT_THROW(place::search_path(costs, {.sequence = {.length = 0}}), std::invalid_argument);
 }
 
