@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace retrace {
 
@@ -36,7 +37,7 @@ Series styled(Series series, std::size_t index) {
 
 namespace {
 
-ordered_json to_json(const Series& series) {
+ordered_json series_json(const Series& series) {
   ordered_json json{
       {"name", series.name},     {"x", rounded(series.x)},      {"y", rounded(series.y)},
       {"colour", series.colour}, {"line", series.line},         {"mark", series.mark},
@@ -48,16 +49,12 @@ ordered_json to_json(const Series& series) {
 
 }  // namespace
 
-ordered_json to_json(const Chart& chart) {
-  ordered_json json{{"title", chart.title},
-                    {"x_title", chart.x_title},
-                    {"y_title", chart.y_title},
-                    {"equal", chart.equal},
-                    {"zoomable", chart.zoomable},
-                    {"across", chart.across},
-                    {"series", ordered_json::array()},
+std::string to_json(const Chart& chart) {
+  ordered_json json{{"title", chart.title},          {"x_title", chart.x_title},
+                    {"y_title", chart.y_title},      {"equal", chart.equal},
+                    {"zoomable", chart.zoomable},    {"series", ordered_json::array()},
                     {"bands", ordered_json::array()}};
-  for (const Series& series : chart.series) json["series"].push_back(to_json(series));
+  for (const Series& series : chart.series) json["series"].push_back(series_json(series));
   for (const Band& band : chart.bands) {
     ordered_json spans = ordered_json::array();
     for (const auto& [from, to] : band.spans) spans.push_back({rounded(from), rounded(to)});
@@ -73,7 +70,7 @@ ordered_json to_json(const Chart& chart) {
                        {"top", b->top},
                        {"bottom", b->bottom}};
   }
-  return json;
+  return json.dump();
 }
 
 }  // namespace retrace

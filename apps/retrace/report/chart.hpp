@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace retrace {
 
-/// A value rounded to six digits, none for what is no finite number: what a page needs, in few bytes.
+/// A value rounded to six digits, null for what is not finite: what a page needs, in few bytes.
 nlohmann::ordered_json rounded(double value);
 nlohmann::ordered_json rounded(const std::vector<double>& values);
 
@@ -18,7 +18,7 @@ nlohmann::ordered_json rounded(const std::vector<double>& values);
 struct Series {
   std::string name;
   std::vector<double> x;
-  std::vector<double> y;  ///< as many; NaN breaks the line
+  std::vector<double> y;  ///< as many as x; NaN breaks the line
   std::string colour;     ///< a colour of report.css: blue, orange, green, purple, ochre, grey
   bool line = true;
   std::string mark;       ///< circle, triangle, square, diamond, cross or star; empty: none
@@ -27,12 +27,12 @@ struct Series {
   double width_px = 1.8;
   double size_px = 3.5;            ///< half of a mark
   bool bar_ends = false;           ///< the first and last point are bars across the line, as of an interval
-  bool label_at_end = false;       ///< the name stands at the last point, not in the legend
-  std::vector<std::string> notes;  ///< told of each point beside its values; empty: nothing
+  bool label_at_end = false;       ///< the name is written at the last point, not in the legend
+  std::vector<std::string> notes;  ///< shown with each point's values; empty: none
 };
 
-/// Gives a series the colour, mark and dashes of its place among others of the same kind, told apart without
-/// colour too.
+/// Gives a series the colour, mark and dashes of number `index`, so that several can be told apart even
+/// without colour.
 Series styled(Series series, std::size_t index);
 
 /// Stretches of x that are shaded.
@@ -50,20 +50,19 @@ struct Backdrop {
 
 /// A figure of lines and points, drawn by charts.js.
 struct Chart {
-  std::string title;  ///< read out to who cannot see it
+  std::string title;  ///< for screen readers
   std::string x_title, y_title;
   std::vector<Series> series;
   std::vector<Band> bands;
-  std::optional<std::array<double, 2>> x_range, y_range;  ///< as the data has it if not given
+  std::optional<std::array<double, 2>> x_range, y_range;  ///< the extent of the data if not given
   std::vector<std::string> y_names;                       ///< of y = 1, 2, ..., instead of numbers
   std::optional<Backdrop> backdrop;
-  bool equal = false;     ///< metres look alike along both axes
+  bool equal = false;     ///< one scale along both axes
   bool zoomable = false;  ///< along x, or along both where they are equal
-  bool across = false;    ///< hovering tells all series at one x
   std::string size;       ///< "tall", "wide" or empty
 };
 
-/// What charts.js reads.
-nlohmann::ordered_json to_json(const Chart& chart);
+/// What charts.js reads, as JSON.
+std::string to_json(const Chart& chart);
 
 }  // namespace retrace

@@ -8,8 +8,8 @@ function themeColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 }
 
-/** Lines across, in one of a few ways: a shade that is told from others without its colour. */
-function hatching(context, colour, way) {
+/** One of a few patterns of lines: a shading that can be told from others without its colour. */
+function hatching(context, colour, pattern) {
   const tile = document.createElement('canvas');
   tile.width = tile.height = 8;
   const pen = tile.getContext('2d');
@@ -19,7 +19,7 @@ function hatching(context, colour, way) {
   const strokes = [[[-2, 2, 2, -2], [0, 8, 8, 0], [6, 10, 10, 6]], [[-2, 6, 2, 10], [0, 0, 8, 8], [6, -2, 10, 2]],
     [[1, 2, 3, 2], [5, 6, 7, 6]], [[0, 0, 8, 8], [8, 0, 0, 8]]];
   pen.beginPath();
-  for (const [x0, y0, x1, y1] of strokes[way % strokes.length]) {
+  for (const [x0, y0, x1, y1] of strokes[pattern % strokes.length]) {
     pen.moveTo(x0, y0);
     pen.lineTo(x1, y1);
   }
@@ -84,16 +84,15 @@ function atEnds(end, between, series) {
 function dataset(series) {
   const colour = themeColour(series.colour);
   const points = series.x.map((x, i) => ({x, y: series.y[i] === null ? NaN : series.y[i]}));
-  const size = series.mark ? series.size || 3.5 : 0;
+  const size = series.mark ? series.size : 0;
   return {
     label: series.name,
     data: points,
-    showLine: series.line !== false,
+    showLine: series.line,
     borderColor: colour,
     backgroundColor: series.hollow ? 'transparent' : colour,
-    borderWidth: series.line === false ? 1.5 : series.width || 1.8,
-    borderDash: series.dash || [],
-    stepped: series.stepped || false,
+    borderWidth: !series.line ? 1.5 : series.width,
+    borderDash: series.dash,
     pointStyle: series.bar_ends ? atEnds('line', MARKS[series.mark], series) : MARKS[series.mark] || 'circle',
     pointRotation: series.bar_ends ? atEnds(90, 0, series) : 0,
     pointRadius: series.bar_ends ? atEnds(8, size, series) : size,
@@ -102,8 +101,7 @@ function dataset(series) {
     pointBorderColor: colour,
     pointBackgroundColor: series.hollow ? 'transparent' : colour,
     clip: series.mark ? 8 : 1,
-    spanGaps: false,
-    order: series.order || 0
+    spanGaps: false
   };
 }
 
@@ -114,9 +112,9 @@ function legendGlyph(series) {
   glyph.height = 14;
   const pen = glyph.getContext('2d');
   pen.strokeStyle = pen.fillStyle = themeColour(series.colour);
-  pen.lineWidth = series.line === false ? 1.5 : Math.max(2, series.width || 2);
-  if (series.line !== false) {
-    pen.setLineDash(series.dash || []);
+  pen.lineWidth = !series.line ? 1.5 : Math.max(2, series.width);
+  if (series.line) {
+    pen.setLineDash(series.dash);
     pen.beginPath();
     pen.moveTo(0, 7);
     pen.lineTo(34, 7);
@@ -163,7 +161,7 @@ function configuration(spec, context) {
       animation: false,
       responsive: true,
       maintainAspectRatio: false,
-      interaction: {mode: spec.across ? 'x' : 'nearest', intersect: false},
+      interaction: {mode: 'nearest', intersect: false},
       scales: {x: axis(spec.x_title, spec.x_range), y: axis(spec.y_title, spec.y_range)},
       plugins: {
         legend: {

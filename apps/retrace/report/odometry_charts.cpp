@@ -95,7 +95,7 @@ std::vector<double> unwrapped_deg(const vo::Trajectory& trajectory) {
 
 std::optional<Chart> gait_chart(const OdometryView& walk) {
   if (walk.frames.time_s.empty()) return {};
-  const std::string read_from = walk.summary.value("step_signal", "orientation");
+  const std::string read_from = walk.summary.step_signal;
   const bool by_orientation = read_from == "orientation";
   Chart chart{.title = "gait signal with thresholds and steps",
               .x_title = "time, s",
@@ -112,8 +112,8 @@ std::optional<Chart> gait_chart(const OdometryView& walk) {
   chart.series.push_back(
       {.name = "signal, low-passed", .x = walk.frames.time_s, .y = walk.frames.signal, .colour = "blue"});
   chart.series.push_back(threshold_lines(walk, "dynamic threshold", walk.frames.threshold, {}));
-  if (walk.summary.contains("delta_min") && walk.summary["delta_min"].is_number()) {
-    const std::vector<double> level(walk.frames.time_s.size(), walk.summary["delta_min"].get<double>());
+  if (walk.summary.delta_min) {
+    const std::vector<double> level(walk.frames.time_s.size(), *walk.summary.delta_min);
     chart.series.push_back(threshold_lines(walk, "static threshold", level, {7, 5}));
   }
   if (by_orientation) {
@@ -183,7 +183,7 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
   if (frames.time_s.size() < 2) return {};
   Chart chart{.title = "speed",
               .x_title = "time, s",
-              .y_title = fmt::format("speed, {}/s", unit_of(walk)),
+              .y_title = fmt::format("speed, {}/s", walk.summary.unit),
               .series = {{.name = "odometry",
                           .x = frames.time_s,
                           .y = over_half_a_second(frames.displacement, frames.time_s),

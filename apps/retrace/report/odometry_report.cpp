@@ -10,25 +10,25 @@
 namespace retrace {
 namespace {
 
-using nlohmann::ordered_json;
-
 void put_headlines(Page& page, const OdometryView& walk) {
-  const ordered_json& summary = walk.summary;
-  std::vector<Headline> numbers{{"Steps", std::to_string(walk.steps.time_s.size()),
-                                 summary.contains("steps_bridged")
-                                     ? fmt::format("of them {} bridged", summary["steps_bridged"].dump())
-                                     : ""}};
+  const OdometrySummary& summary = walk.summary;
+  std::vector<Headline> numbers{
+      {"Steps", std::to_string(walk.steps.time_s.size()),
+       summary.steps_bridged ? fmt::format("of them {} bridged", *summary.steps_bridged) : ""}};
   if (walk.truth != nullptr && !walk.truth->steps.empty())
     numbers.push_back({"True steps", walk.truth->steps, ""});
-  if (summary.contains("distance")) {
-    numbers.push_back({"Distance", fmt::format("{:.1f} {}", summary["distance"].get<double>(), unit_of(walk)),
-                       unit_of(walk) == "m" ? fmt::format("steps of {:.3f} m on average",
-                                                          summary["step_length_m"].get<double>())
-                                            : "nothing tells metres"});
-    numbers.push_back({"Duration", fmt::format("{:.1f} s", summary["duration_s"].get<double>()),
-                       fmt::format("{} frames", summary["frames"].dump())});
-    numbers.push_back({"Bridged", summary["frames_bridged"].dump(), "frames with too few matches"});
+  if (summary.distance) {
+    numbers.push_back({"Distance", fmt::format("{:.1f} {}", *summary.distance, summary.unit),
+                       summary.unit == "m" && summary.step_length_m
+                           ? fmt::format("steps of {:.3f} m on average", *summary.step_length_m)
+                           : "not known in metres"});
   }
+  if (summary.duration_s) {
+    numbers.push_back({"Duration", fmt::format("{:.1f} s", *summary.duration_s),
+                       fmt::format("{} frames", summary.frames.value_or(0))});
+  }
+  if (summary.frames_bridged)
+    numbers.push_back({"Bridged", std::to_string(*summary.frames_bridged), "frames with too few matches"});
   if (walk.truth != nullptr) {
     for (const place::OdometryErrors& errors : walk.truth->evaluation.errors) {
       if (errors.count == 0 || (errors.at_m != 10 && errors.at_m != 50 && errors.at_m != 100)) continue;
@@ -38,8 +38,7 @@ void put_headlines(Page& page, const OdometryView& walk) {
     }
   }
   page.headlines(numbers);
-  for (const auto& warning : summary.value("warnings", ordered_json::array()))
-    page.warning(warning.get<std::string>());
+  for (const std::string& warning : summary.warnings) page.warning(warning);
 }
 
 void put_errors(Page& page, const OdometryView& walk) {
@@ -64,8 +63,7 @@ void put_errors(Page& page, const OdometryView& walk) {
 std::string odometry_report(const std::filesystem::path& folder, const OdometryTruth* truth) {
   OdometryView walk = read_odometry(folder);
   walk.truth = truth;
-  Page page("Steps and trajectory",
-            walk.summary.contains("walk") ? walk.summary["walk"].get<std::string>() : folder.string());
+  Page page("Steps and trajectory", walk.summary.walk.empty() ? folder.string() : walk.summary.walk);
   put_headlines(page, walk);
   page.chart("Trajectory", trajectory_chart(walk),
              truth == nullptr
@@ -74,7 +72,7 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
   put_errors(page, walk);
   page.chart(
       "Steps", gait_chart(walk),
-      walk.summary.value("step_signal", "orientation") == "bounce"
+      walk.summary.step_signal == "bounce"
           ? "A valley below the threshold is a foot that lands, left (triangle) and right (diamond) by "
             "turns; outlines are steps filled in. Zoom in to see them."
           : "A peak beyond both thresholds is a step with the left leg (triangle), a valley one with the "

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fstream>
 
+#include <nlohmann/json.hpp>
+
 #include <vo/io/csv.hpp>
 #include <vo/io/trajectory_io.hpp>
 
@@ -10,6 +12,7 @@ namespace retrace {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::ordered_json;
 
 std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
   std::vector<double> numbers;
@@ -17,18 +20,38 @@ std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
   return numbers;
 }
 
-}  // namespace
-
-std::string unit_of(const OdometryView& walk) {
-  return walk.summary.value("unit", "m");
+template <typename T>
+std::optional<T> number(const ordered_json& json, const char* name) {
+  if (!json.contains(name) || !json[name].is_number()) return {};
+  return json[name].get<T>();
 }
+
+OdometrySummary read_summary(const fs::path& path) {
+  std::ifstream file(path);
+  if (!file) return {};
+  const ordered_json json = ordered_json::parse(file, nullptr, false);
+  if (!json.is_object()) return {};
+  OdometrySummary summary{.walk = json.value("walk", std::string{}),
+                          .step_signal = json.value("step_signal", "orientation"),
+                          .unit = json.value("unit", "m"),
+                          .delta_min = number<double>(json, "delta_min"),
+                          .distance = number<double>(json, "distance"),
+                          .step_length_m = number<double>(json, "step_length_m"),
+                          .duration_s = number<double>(json, "duration_s"),
+                          .frames = number<std::int64_t>(json, "frames"),
+                          .frames_bridged = number<std::int64_t>(json, "frames_bridged"),
+                          .steps_bridged = number<std::int64_t>(json, "steps_bridged")};
+  for (const auto& warning : json.value("warnings", ordered_json::array()))
+    summary.warnings.push_back(warning.get<std::string>());
+  return summary;
+}
+
+}  // namespace
 
 OdometryView read_odometry(const fs::path& folder) {
   OdometryView walk;
   walk.trajectory = vo::read_tum(folder / "trajectory.tum");
-  walk.summary = nlohmann::ordered_json::object();
-  if (std::ifstream file(folder / "summary.json"); file)
-    walk.summary = nlohmann::ordered_json::parse(file, nullptr, false);
+  walk.summary = read_summary(folder / "summary.json");
   if (fs::exists(folder / "frames.csv")) {
     const vo::CsvTable table = vo::CsvTable::read(folder / "frames.csv");
     const auto alone = [&](const char* column) {

@@ -4,21 +4,30 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 namespace retrace {
 
-/// The frames, steps and activities of a walk, as they lie in its folder.
+/// What summary.json says of a walk.
+struct OdometrySummary {
+  std::string walk;                         ///< where it was read from; empty if not known
+  std::string step_signal = "orientation";  ///< what steps were read from
+  std::string unit = "m";                   ///< of displacements and positions: "m", "units" or "frames"
+  std::optional<double> delta_min, distance, step_length_m, duration_s;
+  std::optional<std::int64_t> frames, frames_bridged, steps_bridged;
+  std::vector<std::string> warnings;
+};
+
+/// The frames, steps and activities of a walk, from the files in its folder.
 struct OdometryView {
   struct Frames {
     std::vector<double> time_s, displacement, orientation_deg, matches, heading_deg, signal, threshold;
     std::vector<std::string> source;
     std::vector<std::int64_t> reliable;
     std::vector<double> vo_displacement, sad_displacement;  ///< each source alone
-  } frames;  ///< by frame; empty without frames.csv, and NaN where there is no value
+  } frames;  ///< by frame; empty without frames.csv; NaN where there is no value
   struct Steps {
     std::vector<double> time_s;
     std::vector<std::int64_t> frame, bridged;
@@ -29,12 +38,9 @@ struct OdometryView {
     std::vector<std::string> activity;
   } activity;
   vo::Trajectory trajectory;
-  nlohmann::ordered_json summary;  ///< summary.json, or empty
+  OdometrySummary summary;
   const OdometryTruth* truth = nullptr;
 };
-
-/// What displacements and positions are measured in: "m", or where nothing tells metres "units" or "frames".
-std::string unit_of(const OdometryView& walk);
 
 /// Reads a folder written by `retrace odometry`; what is not there stays empty.
 OdometryView read_odometry(const std::filesystem::path& folder);

@@ -46,9 +46,9 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 }
 
 /// JSON that a script element may hold: no "</script>" or "<!--" in it.
-std::string script_json(const nlohmann::ordered_json& json) {
+std::string script_json(std::string_view json) {
   std::string text;
-  for (const char c : json.dump()) {
+  for (const char c : json) {
     if (c == '<') {
       text += "\\u003c";
     } else {
@@ -181,12 +181,12 @@ void Page::picture(const std::vector<std::uint8_t>& image, std::string_view desc
       data_url(image), escaped(description), escaped(caption));
 }
 
-void Page::figure(std::string_view kind, std::string_view content, const nlohmann::ordered_json& spec,
+void Page::figure(std::string_view kind, std::string_view content, std::string_view json,
                   std::string_view caption) {
   body_ += fmt::format(
       "<figure class=\"{0}\" data-kind=\"{0}\" id=\"figure-{1}\">{2}<figcaption>{3}</figcaption>\n"
       "<script type=\"application/json\">{4}</script></figure>\n",
-      kind, ++figures_, content, escaped(caption), script_json(spec));
+      kind, ++figures_, content, escaped(caption), script_json(json));
 }
 
 void Page::chart(const Chart& chart, std::string_view caption) {
@@ -203,16 +203,16 @@ void Page::chart(std::string_view heading_text, const std::optional<Chart>& draw
   chart(*drawn, caption);
 }
 
-void Page::matrix(const nlohmann::ordered_json& spec, std::string_view caption) {
+void Page::matrix(std::string_view json, std::string_view caption) {
   figure("matrix",
          "<canvas role=\"img\" tabindex=\"0\" aria-label=\"cost matrix with the matches over it; plus, minus "
          "and 0 "
          "zoom, arrows move\"></canvas>",
-         spec, caption);
+         json, caption);
 }
 
-void Page::strip(const nlohmann::ordered_json& spec, std::string_view caption) {
-  figure("strip", "", spec, caption);
+void Page::strip(std::string_view json, std::string_view caption) {
+  figure("strip", "", json, caption);
 }
 
 std::string Page::html() const {

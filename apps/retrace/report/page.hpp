@@ -10,11 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 namespace retrace {
 
-/// A number that stands large at the head of a page.
+/// A number shown large at the head of a page.
 struct Headline {
   std::string name;
   std::string value;
@@ -44,25 +42,25 @@ class Page {
   /// Name and value, one pair a row.
   void facts(const std::vector<std::pair<std::string, std::string>>& rows);
   void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
-  /// Side by side, all of one scale.
+  /// Side by side, shaded on one scale.
   void heat_tables(const std::vector<HeatTable>& tables);
-  /// A JPEG or PNG picture. `description` is read out to who cannot see it.
+  /// A JPEG or PNG picture. `description` is for screen readers.
   void picture(const std::vector<std::uint8_t>& image, std::string_view description,
                std::string_view caption);
   void chart(const Chart& chart, std::string_view caption);
   /// The same under a heading, both left out where there is no chart; an empty heading is none.
   void chart(std::string_view heading, const std::optional<Chart>& chart, std::string_view caption);
-  /// A cost matrix to zoom into: what matrix.js reads.
-  void matrix(const nlohmann::ordered_json& spec, std::string_view caption);
-  /// Pairs of frames to look through: what strip.js reads.
-  void strip(const nlohmann::ordered_json& spec, std::string_view caption);
+  /// A cost matrix to zoom into: the JSON that matrix.js reads.
+  void matrix(std::string_view json, std::string_view caption);
+  /// Pairs of frames to look through: the JSON that strip.js reads.
+  void strip(std::string_view json, std::string_view caption);
 
   /// The whole page.
   [[nodiscard]] std::string html() const;
 
  private:
   void heat_table(const HeatTable& table, std::array<double, 2> range);
-  void figure(std::string_view kind, std::string_view content, const nlohmann::ordered_json& spec,
+  void figure(std::string_view kind, std::string_view content, std::string_view json,
               std::string_view caption);
 
   std::string title_;

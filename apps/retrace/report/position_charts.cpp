@@ -103,8 +103,8 @@ std::optional<Chart> error_chart(const OdometryView& walk, Chart chart, double p
 std::optional<Chart> trajectory_chart(const OdometryView& walk) {
   if (walk.trajectory.size() < 2) return {};
   Chart chart{.title = "trajectory",
-              .x_title = fmt::format("x, {}", unit_of(walk)),
-              .y_title = fmt::format("y, {}", unit_of(walk)),
+              .x_title = fmt::format("x, {}", walk.summary.unit),
+              .y_title = fmt::format("y, {}", walk.summary.unit),
               .equal = true,
               .zoomable = true,
               .size = "tall"};

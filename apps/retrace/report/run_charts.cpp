@@ -13,8 +13,6 @@
 namespace retrace {
 namespace {
 
-using nlohmann::ordered_json;
-
 /// Points of the matches for which `keep` holds.
 template <typename Keep, typename Value>
 Series match_series(const RunView& run, std::string name, Keep keep, Value value) {
@@ -50,18 +48,17 @@ Series level(std::string name, const RunView& run, double value) {
           .dash = {7, 5}};
 }
 
-/// The query and each traverse in `run.data`, under the name it has in a figure.
+/// The query and each traverse, under the name it has in a figure.
 struct NamedWalk {
   std::string name;
-  const ordered_json* data;
+  const WalkColumns* data;
   bool query = false;
 };
 
 std::vector<NamedWalk> walks(const RunView& run) {
   std::vector<NamedWalk> all;
-  if (run.data.contains("query")) all.push_back({"query", &run.data["query"], true});
-  for (const ordered_json& traverse : traverses(run))
-    all.push_back({"reference " + traverse["name"].get<std::string>(), &traverse});
+  if (run.query) all.push_back({"query", &*run.query, true});
+  for (const WalkColumns& traverse : run.traverses) all.push_back({"reference " + traverse.name, &traverse});
   return all;
 }
 
@@ -164,8 +161,8 @@ std::optional<Chart> speed_chart(const RunView& run) {
               .size = "wide"};
   const std::vector<NamedWalk> all = walks(run);
   for (std::size_t w = 0; w < all.size(); ++w) {
-    const std::vector<double> time_s = numbers(*all[w].data, "time_s");
-    const std::vector<double> travelled = numbers(*all[w].data, "displacement");
+    const std::vector<double>& time_s = all[w].data->time_s;
+    const std::vector<double>& travelled = all[w].data->displacement;
     if (time_s.size() < 2 || travelled.size() != time_s.size() || travelled.back() <= travelled.front())
       continue;
     Series series{.name = all[w].name};
@@ -181,8 +178,7 @@ std::optional<Chart> speed_chart(const RunView& run) {
 }
 
 std::optional<Chart> keyframe_chart(const RunView& run) {
-  const double unit = run.data.value("unit", 0.0);
-  if (!(unit > 0)) return {};
+  if (!(run.unit > 0)) return {};
   Chart chart{.title = "displacement between neighbouring keyframes",
               .x_title = "keyframe",
               .y_title = "displacement, units",
@@ -190,10 +186,10 @@ std::optional<Chart> keyframe_chart(const RunView& run) {
               .size = "wide"};
   const std::vector<NamedWalk> all = walks(run);
   for (std::size_t w = 0; w < all.size(); ++w) {
-    std::vector<double> travelled = numbers(*all[w].data, "displacement");
+    std::vector<double> travelled = all[w].data->displacement;
     if (all[w].query) {  // of every frame
       std::vector<double> at_keyframes;
-      for (const double frame : numbers(*all[w].data, "frame")) {
+      for (const double frame : all[w].data->frame) {
         if (frame < static_cast<double>(travelled.size()))
           at_keyframes.push_back(travelled[static_cast<std::size_t>(frame)]);
       }
@@ -201,7 +197,7 @@ std::optional<Chart> keyframe_chart(const RunView& run) {
     }
     if (travelled.size() < 2) continue;
     Series series{.name = all[w].name, .x = upto(travelled.size() - 1), .y = differences(travelled)};
-    for (double& step : series.y) step /= unit;
+    for (double& step : series.y) step /= run.unit;
     chart.series.push_back(walk_style(std::move(series), w));
   }
   if (chart.series.empty()) return {};
@@ -223,12 +219,11 @@ std::optional<Chart> spacing_chart(const RunView& run) {
     along_m.push_back(query_m[static_cast<std::size_t>(match.query_frame)]);
   chart.series.push_back(walk_style(
       {.name = "query", .x = upto(along_m.size() - 1), .y = differences(along_m)}, chart.series.size()));
-  for (const ordered_json& traverse : traverses(run)) {
-    along_m = numbers(traverse, "distance_m");
-    if (along_m.size() < 2) continue;
-    chart.series.push_back(walk_style({.name = "reference " + traverse["name"].get<std::string>(),
-                                       .x = upto(along_m.size() - 1),
-                                       .y = differences(along_m)},
+  for (const WalkColumns& traverse : run.traverses) {
+    if (traverse.distance_m.size() < 2) continue;
+    chart.series.push_back(walk_style({.name = "reference " + traverse.name,
+                                       .x = upto(traverse.distance_m.size() - 1),
+                                       .y = differences(traverse.distance_m)},
                                       chart.series.size()));
   }
   return chart;
@@ -241,10 +236,10 @@ std::optional<Chart> map_chart(const RunView& run) {
               .equal = true,
               .zoomable = true,
               .size = "tall"};
-  for (const ordered_json& traverse : traverses(run)) {
-    Series series{.name = "reference " + traverse["name"].get<std::string>(),
-                  .x = numbers(traverse, "x_m"),
-                  .y = numbers(traverse, "y_m"),
+  for (const WalkColumns& traverse : run.traverses) {
+    Series series{.name = "reference " + traverse.name,
+                  .x = traverse.x_m,
+                  .y = traverse.y_m,
                   .colour = "blue",
                   .dash = {8, 3},
                   .width_px = 4};

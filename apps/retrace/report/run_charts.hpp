@@ -9,7 +9,7 @@ namespace retrace {
 
 Chart precision_recall_chart(const RunTruth& truth);
 
-// Each gives none where the run has not what it would show.
+// Each gives none where the run lacks what it would show.
 std::optional<Chart> error_chart(const RunView& run);
 std::optional<Chart> score_chart(const RunView& run);
 /// Displacement a second of both walks, over time (SSS Fig. 6).

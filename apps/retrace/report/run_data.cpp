@@ -9,6 +9,8 @@
 #include <numeric>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 namespace retrace {
 namespace {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 namespace retrace {
 namespace {
 
@@ -22,17 +24,18 @@ std::optional<double> true_frame(const place::GroundTruth& truth, std::int64_t q
 
 }  // namespace
 
-std::vector<ordered_json> matrix_specs(const RunView& run) {
-  std::vector<ordered_json> specs;
-  for (const ordered_json& traverse : traverses(run)) {
+std::vector<MatrixFigure> matrix_figures(const RunView& run) {
+  std::vector<MatrixFigure> figures;
+  for (std::size_t i = 0; i < run.traverses.size(); ++i) {
+    const ordered_json& traverse = run.data["traverses"][i];
     if (!traverse.contains("pictures") || traverse["pictures"].empty()) continue;
-    const std::vector<double> frames = numbers(traverse, "frame");
+    const std::vector<double>& frames = run.traverses[i].frame;
     const std::vector<double> keyframe = upto(frames.size());
     ordered_json matches = ordered_json::array(), truth = ordered_json::array();
     for (std::size_t q = 0; q < run.matches.size(); ++q) {
       const MatchRow& match = run.matches[q];
       ordered_json reference;
-      if (match.reference_frame && match.traverse == traverse["name"])
+      if (match.reference_frame && match.traverse == run.traverses[i].name)
         reference = std::lround(interpolated(frames, keyframe, static_cast<double>(*match.reference_frame)));
       matches.push_back({{"query", q},
                          {"frame", match.query_frame},
@@ -44,19 +47,21 @@ std::vector<ordered_json> matrix_specs(const RunView& run) {
       const auto frame = true_frame(run.truth->truth, match.query_frame);
       truth.push_back(frame ? rounded(interpolated(frames, keyframe, *frame)) : nullptr);
     }
-    ordered_json spec{{"traverse", traverse["name"]},     {"queries", run.matches.size()},
-                      {"references", frames.size()},      {"reference_frames", traverse["frame"]},
-                      {"pictures", traverse["pictures"]}, {"matches", std::move(matches)}};
+    ordered_json spec{{"queries", run.matches.size()},
+                      {"references", frames.size()},
+                      {"reference_frames", traverse["frame"]},
+                      {"pictures", traverse["pictures"]},
+                      {"matches", std::move(matches)}};
     if (run.truth != nullptr) spec["truth"] = std::move(truth);
-    specs.push_back(std::move(spec));
+    figures.push_back({run.traverses[i].name, spec.dump()});
   }
-  return specs;
+  return figures;
 }
 
-ordered_json strip_spec(const RunView& run) {
+std::optional<std::string> strip_json(const RunView& run) {
+  if (!run.data.contains("pairs")) return {};
   ordered_json spec{{"unit", "m"}, {"pairs", ordered_json::array()}};
   if (run.truth != nullptr && run.truth->unit == place::ErrorUnit::kFrames) spec["unit"] = "frames";
-  if (!run.data.contains("pairs")) return spec;
   for (const ordered_json& stored : run.data["pairs"]) {
     const auto q = stored["keyframe"].get<std::size_t>();
     if (q >= run.matches.size() || !run.matches[q].reference_frame) continue;
@@ -74,7 +79,8 @@ ordered_json strip_spec(const RunView& run) {
     }
     spec["pairs"].push_back(std::move(pair));
   }
-  return spec;
+  if (spec["pairs"].empty()) return {};
+  return spec.dump();
 }
 
 }  // namespace retrace

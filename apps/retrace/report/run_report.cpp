@@ -1,12 +1,9 @@
 #include "run_report.hpp"
 
-#include "matches_file.hpp"
 #include "report/page.hpp"
 #include "report/run_charts.hpp"
 #include "report/run_pictures.hpp"
 #include "report/settings_table.hpp"
-
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -14,29 +11,24 @@ namespace retrace {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
 
 std::string percent(double share) {
   return fmt::format("{:.1f} %", 100 * share);
 }
 
-void put_counts(Page& page, const ordered_json& summary) {
-  if (!summary.contains("accepted")) return;
-  const auto count = [&](const char* name) { return summary.value(name, std::size_t{0}); };
-  page.headlines({{"Query keyframes", std::to_string(count("queries")),
-                   fmt::format("of {} frames", count("query_frames"))},
-                  {"Accepted", std::to_string(count("accepted")),
-                   fmt::format("score {:g} or more", summary.value("accept_score", 0.0))},
-                  {"Refused", std::to_string(count("matched") - count("accepted")), "matched, less sure"},
-                  {"Sequence", std::to_string(count("sequence_length")), "keyframes on a line"},
-                  {"Relative scale", fmt::format("{:.3f}", summary.value("relative_scale", 1.0)),
-                   "of the query's motion to the route's"}});
+void put_counts(Page& page, const RunCounts& counts) {
+  page.headlines(
+      {{"Query keyframes", std::to_string(counts.queries), fmt::format("of {} frames", counts.query_frames)},
+       {"Accepted", std::to_string(counts.accepted), fmt::format("score {:g} or more", counts.accept_score)},
+       {"Refused", std::to_string(counts.matched - counts.accepted), "matched, less sure"},
+       {"Sequence", std::to_string(counts.sequence_length), "keyframes on a line"},
+       {"Relative scale", fmt::format("{:.3f}", counts.relative_scale),
+        "of the query's motion to the route's"}});
   page.paragraph(
       fmt::format("{} matches, {} of them accepted, were found on part of a line: within half a "
                   "sequence of an end of either walk.",
-                  count("partial"), count("partial_accepted")));
-  for (const auto& warning : summary.value("warnings", ordered_json::array()))
-    page.warning(warning.get<std::string>());
+                  counts.partial, counts.partial_accepted));
+  for (const std::string& warning : counts.warnings) page.warning(warning);
 }
 
 void put_scores(Page& page, const RunTruth& truth) {
@@ -94,18 +86,12 @@ std::string name_of(place::ErrorUnit unit) {
   return unit == place::ErrorUnit::kMetres ? "metres" : "reference frames";
 }
 
-std::string run_report(const fs::path& folder, const ordered_json& data, const RunTruth* truth) {
-  const std::vector<MatchRow> matches = read_matches(folder / "matches.csv");
-  const RunView view{folder, matches, data, truth};
-  ordered_json summary = ordered_json::object();
-  if (std::ifstream file(folder / "summary.json"); file) summary = ordered_json::parse(file, nullptr, false);
-
+std::string run_report(const fs::path& folder, const nlohmann::ordered_json& data, const RunTruth* truth) {
+  const RunView view = read_run(folder, data, truth);
   Page page(truth != nullptr ? "Where the walk was found, and how well" : "Where the walk was found",
-            summary.contains("query") ? fmt::format("{} on {}", summary["query"].get<std::string>(),
-                                                    summary["route"].get<std::string>())
-                                      : folder.string());
+            view.counts ? fmt::format("{} on {}", view.counts->query, view.counts->route) : folder.string());
   if (truth != nullptr) put_scores(page, *truth);
-  put_counts(page, summary);
+  if (view.counts) put_counts(page, *view.counts);
   if (truth != nullptr) {
     page.chart(
         "Precision and recall", precision_recall_chart(*truth),
@@ -118,10 +104,10 @@ std::string run_report(const fs::path& folder, const ordered_json& data, const R
     page.paragraph("Precision, recall and errors need the truth: retrace evaluate.");
   }
   page.chart("Score along the walk", score_chart(view), "A higher score is a surer match.");
-  for (const ordered_json& matrix : matrix_specs(view)) {
-    page.heading(fmt::format("Cost matrix against {}", matrix["traverse"].get<std::string>()));
+  for (const MatrixFigure& matrix : matrix_figures(view)) {
+    page.heading(fmt::format("Cost matrix against {}", matrix.traverse));
     page.matrix(
-        matrix,
+        matrix.json,
         "Dark where alike. Raw: mean absolute difference of the descriptors; enhanced: as it was searched. "
         "Drag or use the arrows to move, + and - (or the wheel with Ctrl) to zoom.");
   }
@@ -135,9 +121,9 @@ std::string run_report(const fs::path& folder, const ordered_json& data, const R
       "", spacing_chart(view),
       "Metres truly walked between neighbouring keyframes. The closer the two walks, the straighter the path "
       "through the matrix, and the nearer to 45 degrees.");
-  if (const ordered_json strip = strip_spec(view); !strip["pairs"].empty()) {
+  if (const std::optional<std::string> strip = strip_json(view)) {
     page.heading("What was taken for the same place");
-    page.strip(strip, "Query above, the place of the route where it was found below.");
+    page.strip(*strip, "Query above, the place of the route where it was found below.");
   }
   page.chart("Map", map_chart(view), "Metres, in the coordinates of the route.");
   if (truth != nullptr) {

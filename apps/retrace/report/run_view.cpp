@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
+#include <nlohmann/json.hpp>
+
 namespace retrace {
+namespace {
 
 using nlohmann::ordered_json;
 
@@ -16,9 +20,53 @@ std::vector<double> numbers(const ordered_json& json, const char* name) {
   return values;
 }
 
-const ordered_json& traverses(const RunView& run) {
-  static const ordered_json kNone = ordered_json::array();
-  return run.data.contains("traverses") ? run.data["traverses"] : kNone;
+WalkColumns columns(const ordered_json& json, std::string name) {
+  return {.name = std::move(name),
+          .frame = numbers(json, "frame"),
+          .time_s = numbers(json, "time_s"),
+          .displacement = numbers(json, "displacement"),
+          .distance_m = numbers(json, "distance_m"),
+          .x_m = numbers(json, "x_m"),
+          .y_m = numbers(json, "y_m")};
+}
+
+std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) return {};
+  const ordered_json json = ordered_json::parse(stream, nullptr, false);
+  if (!json.is_object()) return {};
+  const auto count = [&](const char* name) { return json.value(name, std::size_t{0}); };
+  RunCounts counts{.queries = count("queries"),
+                   .query_frames = count("query_frames"),
+                   .matched = count("matched"),
+                   .accepted = count("accepted"),
+                   .partial = count("partial"),
+                   .partial_accepted = count("partial_accepted"),
+                   .sequence_length = count("sequence_length"),
+                   .accept_score = json.value("accept_score", 0.0),
+                   .relative_scale = json.value("relative_scale", 1.0),
+                   .query = json.value("query", std::string{}),
+                   .route = json.value("route", std::string{})};
+  for (const auto& warning : json.value("warnings", ordered_json::array()))
+    counts.warnings.push_back(warning.get<std::string>());
+  return counts;
+}
+
+}  // namespace
+
+RunView read_run(const std::filesystem::path& folder, const ordered_json& data, const RunTruth* truth) {
+  RunView run{.folder = folder,
+              .matches = read_matches(folder / "matches.csv"),
+              .unit = data.value("unit", 0.0),
+              .counts = read_counts(folder / "summary.json"),
+              .data = data,
+              .truth = truth};
+  if (data.contains("query")) run.query = columns(data["query"], "query");
+  if (data.contains("traverses")) {
+    for (const ordered_json& traverse : data["traverses"])
+      run.traverses.push_back(columns(traverse, traverse["name"].get<std::string>()));
+  }
+  return run;
 }
 
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {

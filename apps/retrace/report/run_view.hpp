@@ -3,31 +3,56 @@
 #include "matches_file.hpp"
 #include "report/run_report.hpp"
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace retrace {
 
+/// One walk of a run: the query, with a time and a displacement for every frame, or a traverse of the route,
+/// with values for each of its keyframes. NaN where there is no value.
+struct WalkColumns {
+  std::string name;
+  std::vector<double> frame;  ///< of the keyframes
+  std::vector<double> time_s;
+  std::vector<double> displacement;  ///< travelled so far
+  std::vector<double> distance_m, x_m, y_m;
+};
+
+/// The counts in summary.json.
+struct RunCounts {
+  std::size_t queries = 0, query_frames = 0, matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
+  std::size_t sequence_length = 0;
+  double accept_score = 0, relative_scale = 1;
+  std::string query, route;
+  std::vector<std::string> warnings;
+};
+
 /// What the figures of a run's report are drawn from.
 struct RunView {
-  const std::filesystem::path& folder;
-  const std::vector<MatchRow>& matches;
+  std::filesystem::path folder;
+  std::vector<MatchRow> matches;
+  double unit = 0;  ///< displacement between keyframes; 0 where it is not known
+  std::optional<WalkColumns> query;
+  std::vector<WalkColumns> traverses;
+  std::optional<RunCounts> counts;
   const nlohmann::ordered_json& data;  ///< see run_data.hpp; may be empty
   const RunTruth* truth;               ///< null before the run is evaluated
 };
 
-/// A column of the run's data; NaN for null.
-std::vector<double> numbers(const nlohmann::ordered_json& json, const char* name);
-
-/// The traverses in the run's data.
-const nlohmann::ordered_json& traverses(const RunView& run);
+/// Throws `vo::Error` if matches.csv cannot be read; what else is missing is left out.
+RunView read_run(const std::filesystem::path& folder, const nlohmann::ordered_json& data,
+                 const RunTruth* truth);
 
 /// 0, 1, ... count - 1.
 std::vector<double> upto(std::size_t count);
 
-/// y at `at`, linear between the points of increasing x, as at the ends outside. At least one point.
+/// y at `at`: linear between the points of increasing x, the value of the nearer end outside them. At least
+/// one point.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);
 
 }  // namespace retrace
