@@ -32,6 +32,7 @@ if not CHROMIUM or not CHROMEDRIVER:
     print("skipped: chromium and chromium-driver are not installed")
     sys.exit(SKIPPED)
 
+PHONE = 390  # px, the width of a common one
 SCREENSHOTS = pathlib.Path(os.environ.get("RETRACE_SCREENSHOTS", "screenshots"))
 
 # The share of a canvas's pixels that differ from its first one.
@@ -129,10 +130,36 @@ class ReportsTest(unittest.TestCase):
         for picture in self.all("img"):
             self.assertTrue(picture.get_attribute("alt"))
         self.assertEqual(len(self.all("h1")), 1)
-        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"), 1200)  # nothing sticks out
+        self.nothing_sticks_out(1200)
         self.reached_by_keys()
         self.in_the_dark()
         self.screenshot(path.parent.name + "-" + path.stem)
+        self.on_a_phone(path)
+
+    def nothing_sticks_out(self, width):
+        """The page does not scroll sideways; a wide table scrolls in its own box, which keys reach."""
+        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"), width)
+        wide = self.script("""return [...document.querySelectorAll('main *')].filter(e => e.getBoundingClientRect().right > arguments[0]
+            && !e.closest('.scroll, .strip ol')).map(e => e.outerHTML.slice(0, 120))""", width)
+        self.assertEqual(wide, [])
+
+    def on_a_phone(self, path):
+        """The same page on a narrow screen, loaded anew; every figure is drawn within it."""
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": PHONE, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        try:
+            self.driver.get(path.as_uri())
+            self.nothing_sticks_out(PHONE)
+            self.assertTrue(self.script("""return [...document.querySelectorAll('.scroll')].every(
+                box => box.scrollWidth <= box.clientWidth || box.tabIndex === 0)"""))
+            for canvas in self.all("canvas"):
+                self.assertGreater(self.script(INKED, canvas), 0.002, canvas.get_attribute("aria-label"))
+                # Axes and legend leave at least half of a figure to what it shows.
+                area = self.script("const c = Chart.getChart(arguments[0]); return c && c.chartArea.height / c.height", canvas)
+                self.assertGreater(area or 1, 0.5, canvas.get_attribute("aria-label"))
+            self.screenshot("phone-" + path.parent.name, PHONE)
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def colours(self, scheme):
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
@@ -160,16 +187,16 @@ class ReportsTest(unittest.TestCase):
         background = self.script("return getComputedStyle(document.body).backgroundColor")
         self.assertEqual(background, "rgb(22, 23, 27)")
         for canvas, before in zip(canvases, light):
-            # The page is told of the change in its own time.
+            # The page hears of the change a little later.
             WebDriverWait(self.driver, 10).until(lambda _, c=canvas, b=before: self.script(DIGEST, c) != b,
                                                  canvas.get_attribute("aria-label"))
         self.screenshot("dark")
         self.colours("light")
 
-    def screenshot(self, name):
+    def screenshot(self, name, width=1200):
         height = self.script("return document.documentElement.scrollHeight")
         picture = self.driver.execute_cdp_cmd("Page.captureScreenshot", {
-            "captureBeyondViewport": True, "clip": {"x": 0, "y": 0, "width": 1200, "height": height, "scale": 1}})
+            "captureBeyondViewport": True, "clip": {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}})
         (SCREENSHOTS / f"{name}.png").write_bytes(base64.b64decode(picture["data"]))
 
     def zooms(self, figure, canvas):
@@ -236,7 +263,7 @@ class ReportsTest(unittest.TestCase):
         self.assertIn("True steps", self.script("return document.querySelector('dl.headline').textContent"))
 
     def test_odometry_over_a_map(self):
-        """A way of two points, drawn on a map of chequers, under the trajectory."""
+        """A true path of two points, drawn on a map of chequers, under the trajectory."""
         walk = self.folder / "mapped"
         walk.mkdir()
         (walk / "trajectory.tum").write_text("".join(f"{i} 0 {i} 0 0 0 0 1\n" for i in range(30)))
@@ -270,16 +297,16 @@ class ReportsTest(unittest.TestCase):
         self.open(self.folder / "comparison/report.html", charts=2)
         self.assertEqual(len(self.all("dl.headline > div")), 2)
 
-    def test_hovering_the_curve_tells_the_threshold(self):
+    def test_hovering_the_curve_shows_the_threshold(self):
         run = self.walks.evaluated(self.walks.localised("hovered"))
         self.driver.get((run / "report.html").as_uri())
-        told = self.script("""
+        shown = self.script("""
             const figure = document.querySelector('figure.chart'), chart = Chart.getChart(figure.querySelector('canvas'));
             const curve = chart.data.datasets.findIndex(d => d.label === 'every threshold');
             const point = chart.getDatasetMeta(curve).data[0], box = chart.canvas.getBoundingClientRect();
             chart.canvas.dispatchEvent(new MouseEvent('mousemove', {clientX: box.left + point.x, clientY: box.top + point.y, bubbles: true}));
             return new Promise(done => setTimeout(() => done(chart.tooltip.body.flatMap(b => b.lines).join(' ')), 200));""")
-        self.assertRegex(told, r"threshold \d")
+        self.assertRegex(shown, r"threshold \d")
 
     def test_prints(self):
         self.driver.get((self.walks.run / "report.html").as_uri())

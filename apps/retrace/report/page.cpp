@@ -110,6 +110,15 @@ void Page::facts(const std::vector<std::pair<std::string, std::string>>& rows) {
   body_ += "</table></div>\n";
 }
 
+void Page::definitions(const std::vector<std::array<std::string, 3>>& rows) {
+  body_ += "<dl class=\"definitions\">\n";
+  for (const auto& [name, value, text] : rows) {
+    body_ += fmt::format("<div><dt>{} <code>{}</code></dt><dd>{}</dd></div>\n", escaped(name), escaped(value),
+                         escaped(text));
+  }
+  body_ += "</dl>\n";
+}
+
 void Page::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
   body_ += "<div class=\"scroll\"><table>\n<thead><tr>";
   for (std::size_t i = 0; i < header.size(); ++i) {

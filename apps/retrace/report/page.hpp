@@ -41,6 +41,8 @@ class Page {
   void headlines(const std::vector<Headline>& numbers);
   /// Name and value, one pair a row.
   void facts(const std::vector<std::pair<std::string, std::string>>& rows);
+  /// Names with a value and a sentence about it; the sentence goes below on a narrow screen.
+  void definitions(const std::vector<std::array<std::string, 3>>& rows);
   void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
   /// Side by side, shaded on one scale.
   void heat_tables(const std::vector<HeatTable>& tables);

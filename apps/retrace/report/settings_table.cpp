@@ -1,5 +1,6 @@
 #include "settings_table.hpp"
 
+#include <array>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@ void put_settings(Page& page, const std::filesystem::path& config) {
   std::ifstream file(config);
   if (!file) return;
   // `to_toml` writes a comment, then `name = value`, or `# name =` for what was not set.
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::array<std::string, 3>> rows;
   std::string line, comment;
   while (std::getline(file, line)) {
     const std::size_t equals = line.find(" = ");
@@ -21,7 +22,7 @@ void put_settings(Page& page, const std::filesystem::path& config) {
     }
   }
   page.heading("Settings");
-  page.table({"setting", "value", "what it is"}, rows);
+  page.definitions(rows);
 }
 
 }  // namespace retrace
