@@ -138,9 +138,6 @@ void add_odometry_options(CLI::App& app, Settings& s) {
   add(app, kOdometry, "--surf-points", tracker.surf.detector.max_points,
       "interest points of a frame, the strongest")
       ->check(CLI::Range(10, 100000));
-  add_choice(app, kOdometry, "--matcher", tracker.match.search,
-             {{"exact", vo::MatchSearch::kExact}, {"flann", vo::MatchSearch::kFlann}},
-             "how the nearest descriptor is found");
   add(app, kOdometry, "--tracking-window", tracker.window,
       "frames between which a point is compared [PVO Table 1]")
       ->check(CLI::Range(1, vo::TrackingWindow::kMaxWindow));

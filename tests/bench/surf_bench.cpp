@@ -88,13 +88,12 @@ void smooth_pyramid(benchmark::State& state) {
 BENCHMARK(smooth_pyramid)->Unit(benchmark::kMillisecond);
 
 /// Two consecutive frames of 800 points; arguments: threads, largest displacement in pixels (0: any). `agree`
-/// is the share of its matches that exact search without a limit finds as well.
-void matching(benchmark::State& state, vo::MatchSearch search) {
+/// is the share of its matches that a search without a limit finds as well.
+void matching(benchmark::State& state) {
   vo::set_thread_count(static_cast<int>(state.range(0)));
   const vo::Features from = vo::detect_surf(frames()[0], options_for(800));
   const vo::Features to = vo::detect_surf(frames()[1], options_for(800));
-  const vo::MatchOptions options{.search = search,
-                                 .max_displacement_px = static_cast<double>(state.range(1))};
+  const vo::MatchOptions options{.max_displacement_px = static_cast<double>(state.range(1))};
   std::vector<vo::Match> matches;
   for (auto _ : state) matches = vo::match_features(from, to, options);
   const auto exact = vo::match_features(from, to);
@@ -105,15 +104,6 @@ void matching(benchmark::State& state, vo::MatchSearch search) {
   state.counters["matches"] = static_cast<double>(matches.size());
   state.counters["agree"] = static_cast<double>(agree) / static_cast<double>(matches.size());
 }
-BENCHMARK_CAPTURE(matching, exact, vo::MatchSearch::kExact)
-    ->Args({1, 0})
-    ->Args({2, 0})
-    ->Args({1, 100})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(matching, flann, vo::MatchSearch::kFlann)
-    ->Args({1, 0})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+BENCHMARK(matching)->Args({1, 0})->Args({2, 0})->Args({1, 100})->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

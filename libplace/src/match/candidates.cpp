@@ -6,7 +6,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
-#include <flann/flann.hpp>
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
 
 #include <vo/base/parallel.hpp>
 
@@ -84,8 +85,8 @@ std::vector<std::size_t> nearest(Rows& queries, Rows& references, std::size_t co
                                 static_cast<std::size_t>(rows.cols()));
   };
   // The single tree: the randomised ones cannot be seeded, so give another answer every time.
-  flann::Index<flann::L2<float>> index(matrix(references, 0, static_cast<std::size_t>(references.rows())),
-                                       flann::KDTreeSingleIndexParams());
+  flann::KDTreeSingleIndex<flann::L2<float>> index(
+      matrix(references, 0, static_cast<std::size_t>(references.rows())), flann::KDTreeSingleIndexParams());
   index.buildIndex();
   const auto total = static_cast<std::size_t>(queries.rows());
   std::vector<std::size_t> found(total * count);

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <ceres/ceres.h>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCore>
 
 namespace place::pose_graph {
 namespace {
@@ -19,6 +21,28 @@ ceres::CostFunction* cost(const Error& error) {
   return new ceres::AutoDiffCostFunction<Error, residuals, states...>(new Error(error));
 }
 
+/// Eigenvalues and eigenvectors. One decomposition for all uses, of a size known at run time: each instance
+/// of Eigen's for a fixed size takes seconds to compile.
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(const Matrix& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric);
+}
+
+/// R with R' R = information, which is positive semidefinite.
+Matrix root_of(const Matrix& information) {
+  const auto solver = eigen(information);
+  return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * solver.eigenvectors().transpose();
+}
+
+/// The pseudo-inverse: directions of which the matrix says nothing, but for rounding, stay out.
+Matrix pseudo_inverse(const Matrix& symmetric) {
+  const auto solver = eigen(symmetric);
+  const Eigen::VectorXd& values = solver.eigenvalues();
+  const double least = kCount * std::numeric_limits<double>::epsilon() * values.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd inverse =
+      values.unaryExpr([&](double value) { return std::abs(value) > least ? 1 / value : 0.0; });
+  return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+}
+
 /// The graph as Ceres sees it: one parameter block for each node, in the graph's states.
 class Problem {
  public:
@@ -26,10 +50,9 @@ class Problem {
       : factors_(graph.fixes.size() + graph.loops.size()) {
     for (State& state : graph.states) problem_.AddParameterBlock(state.value.data(), kCount);
     const auto block = [&](std::size_t node) { return graph.states.at(node).value.data(); };
-    const Eigen::SelfAdjointEigenSolver<Matrix> prior(graph.prior.information);
-    const Matrix root =
-        prior.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * prior.eigenvectors().transpose();
-    problem_.AddResidualBlock(cost<PriorError, kCount, kCount>({root, graph.prior.mean}), nullptr, block(0));
+    problem_.AddResidualBlock(
+        cost<PriorError, kCount, kCount>({root_of(graph.prior.information), graph.prior.mean}), nullptr,
+        block(0));
     for (std::size_t i = 0; i < graph.motions.size(); ++i) {
       problem_.AddResidualBlock(
           cost<MotionError, kCount, kCount, kCount>(MotionError(graph.motions[i], options)), nullptr,
@@ -232,12 +255,12 @@ Prior prior_after_first(const Graph& graph, const DriftCorrectionOptions& option
   const std::vector<double> g = problem.gradient();
   const Eigen::Map<const Vector> g0(g.data()), g1(g.data() + kCount);
   const Matrix h10 = h.bottomLeftCorner<kCount, kCount>();
-  const Eigen::CompleteOrthogonalDecomposition<Matrix> h00(h.topLeftCorner<kCount, kCount>());
+  const Matrix h00_inverse = pseudo_inverse(h.topLeftCorner<kCount, kCount>());
   Prior prior;
-  prior.information = h.bottomRightCorner<kCount, kCount>() - h10 * h00.solve(h10.transpose());
-  const Vector gradient = g1 - h10 * h00.solve(g0);
-  prior.mean = Eigen::Map<const Vector>(two.states[1].value.data()) -
-               prior.information.completeOrthogonalDecomposition().solve(gradient);
+  prior.information = h.bottomRightCorner<kCount, kCount>() - h10 * h00_inverse * h10.transpose();
+  const Vector gradient = g1 - h10 * (h00_inverse * g0);
+  prior.mean =
+      Eigen::Map<const Vector>(two.states[1].value.data()) - pseudo_inverse(prior.information) * gradient;
   return prior;
 }
 

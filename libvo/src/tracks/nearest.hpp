@@ -28,14 +28,13 @@ struct Nearest {
   }
 };
 
-/// For each point of the first image its nearest of the second, and the other way round the squared distances
-/// alone, which is all that a mutual test needs.
+/// For each point of the first image its nearest of the second; for each of the second only the squared
+/// distance to its nearest of the first, which is all that a mutual test needs.
 struct NearestOfBoth {
   std::vector<Nearest> from;
   std::vector<float> to;
 };
 
 NearestOfBoth nearest_exact(const Features& from, const Features& to, const MatchOptions& options);
-NearestOfBoth nearest_flann(const Features& from, const Features& to);
 
 }  // namespace vo

@@ -16,14 +16,8 @@ struct Match {
   friend bool operator==(const Match&, const Match&) = default;
 };
 
-enum class MatchSearch {
-  kExact,  ///< every pair
-  kFlann,  ///< a k-d tree: the nearest as well, in another order of rounding
-};
-
 /// Settings of `match_features`.
 struct MatchOptions {
-  MatchSearch search = MatchSearch::kExact;
   double max_ratio = 0.8;          ///< of the nearest distance to the second nearest; 1: no ratio test
   bool mutual = true;              ///< `from` must be the nearest of `to` as well
   double max_displacement_px = 0;  ///< points further apart are no candidates; 0: any distance
@@ -35,12 +29,10 @@ struct MatchOptions {
 /// A nearest neighbour is a match if its distance is at most `max_ratio` times the second nearest's (Lowe
 /// 2004, section 7.1), and if no other `from` is nearer to it. Of equal distances the lowest index wins.
 /// Only candidates, that is points of the same sign and within `max_displacement_px`, count as second nearest
-/// or as rivals; a point with a single candidate passes the ratio test. `kFlann` searches without the
-/// displacement and drops pairs too far apart afterwards; its tree is not randomised, so that the same
-/// features give the same matches.
+/// or as rivals; a point with a single candidate passes the ratio test.
 ///
 /// Throws `std::invalid_argument` if descriptor sizes differ while both have points, the ratio is not in (0,
-/// 1], or the displacement is negative. O(|from| |to| descriptor size) for `kExact`, in parallel, with the
+/// 1], or the displacement is negative. O(|from| |to| descriptor size), in parallel, with the
 /// same bytes for any number of threads; the displacement leaves out what is too far up or down.
 std::vector<Match> match_features(const Features& from, const Features& to, const MatchOptions& options = {});
 

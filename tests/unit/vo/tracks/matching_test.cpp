@@ -17,7 +17,6 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 using vo::Match;
-using vo::MatchSearch;
 
 /// Points of two values each; what is not given is alike.
 vo::Features features_of(const std::vector<std::array<float, 2>>& rows) {
@@ -163,30 +162,13 @@ TEST(Matching, IsExact) {
   }
 }
 
-TEST(Matching, FlannFindsWhatExactSearchDoes) {
-  const auto from = random_features(300, 3);
-  const auto to = disturbed(from, 0.03, 4);
-  const auto exact = vo::match_features(from, to);
-  const auto flann = vo::match_features(from, to, {.search = MatchSearch::kFlann});
-  ASSERT_EQ(exact.size(), 300U);
-  ASSERT_EQ(flann.size(), exact.size());
-  for (std::size_t i = 0; i < exact.size(); ++i) EXPECT_EQ(flann[i].to, exact[i].to) << i;
-  EXPECT_EQ(vo::match_features(from, to, {.search = MatchSearch::kFlann}), flann);
-  const auto near = vo::match_features(from, to, {.search = MatchSearch::kFlann, .max_displacement_px = 2});
-  EXPECT_LT(near.size(), flann.size());
-  for (const auto& match : near)
-    EXPECT_LE(std::abs(from.points[match.from].x_px - to.points[match.to].x_px), 2);
-}
-
 TEST(Matching, OfAnImageWithItselfIsTheIdentity) {
   const auto features = vo::detect_surf(test_support::BlobScene(200, 150, 100, 1).draw({300, 200}));
-  for (const auto search : {MatchSearch::kExact, MatchSearch::kFlann}) {
-    const auto matches = vo::match_features(features, features, {.search = search});
-    ASSERT_GE(matches.size(), features.size() * 9 / 10);
-    for (const auto& match : matches) {
-      EXPECT_EQ(match.from, match.to);
-      EXPECT_LE(match.distance, 2e-3F);  // the square root of a few roundings of 1, 6e-8
-    }
+  const auto matches = vo::match_features(features, features);
+  ASSERT_GE(matches.size(), features.size() * 9 / 10);
+  for (const auto& match : matches) {
+    EXPECT_EQ(match.from, match.to);
+    EXPECT_LE(match.distance, 2e-3F);  // the square root of a few roundings of 1, 6e-8
   }
 }
 
@@ -202,13 +184,11 @@ TEST(Matching, IsTheSameForAnyThreadCount) {
 
 TEST(Matching, OfEmptyAndSingleInput) {
   const auto none = random_features(0, 1), one = random_features(1, 1), two = random_features(2, 1);
-  for (const auto search : {MatchSearch::kExact, MatchSearch::kFlann}) {
-    EXPECT_THAT(vo::match_features(none, two, {.search = search}), IsEmpty());
-    EXPECT_THAT(vo::match_features(two, none, {.search = search}), IsEmpty());
-    EXPECT_THAT(vo::match_features({}, one, {.search = search}), IsEmpty());
-    // A single candidate passes the ratio test.
-    EXPECT_EQ(vo::match_features(one, one, {.search = search}).size(), 1U);
-  }
+  EXPECT_THAT(vo::match_features(none, two), IsEmpty());
+  EXPECT_THAT(vo::match_features(two, none), IsEmpty());
+  EXPECT_THAT(vo::match_features({}, one), IsEmpty());
+  // A single candidate passes the ratio test.
+  EXPECT_EQ(vo::match_features(one, one).size(), 1U);
 }
 
 TEST(Matching, RefusesWrongInput) {
