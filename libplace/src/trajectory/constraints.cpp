@@ -47,11 +47,17 @@ double match_sd_m(double score, const DriftCorrectionOptions& options) {
          options.match_doubtful_m * std::exp(-std::max(score, 0.0) / options.match_score);
 }
 
+double match_sd_m(const PoseFix& fix, const DriftCorrectionOptions& options) {
+  if (!fix.probability) return match_sd_m(fix.score, options);
+  return std::hypot(options.match_least_m, fix.sd_m.value_or(0),
+                    std::sqrt(1 - *fix.probability) * options.match_doubtful_m);
+}
+
 std::vector<Constraint> constraints_of(std::span<const PoseFix> fixes, std::span<const double> travelled_m,
                                        const DriftCorrectionOptions& options) {
   std::vector<Constraint> constraints;
   for (const PoseFix& fix : fixes)
-    constraints.push_back({.node = fix.node, .pose = fix.pose, .sigma_m = match_sd_m(fix.score, options)});
+    constraints.push_back({.node = fix.node, .pose = fix.pose, .sigma_m = match_sd_m(fix, options)});
   share_information(constraints, travelled_m, options);
   return constraints;
 }

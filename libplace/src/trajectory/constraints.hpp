@@ -17,8 +17,9 @@ std::vector<double> travelled_by_node_m(const vo::Trajectory& odometry);
 /// From each node to the next.
 std::vector<pose_graph::Motion> motions_of(const vo::Trajectory& odometry);
 
-/// Standard deviation along the path of a match of a score.
+/// Standard deviation along the path of a match of a score, and of a fix.
 double match_sd_m(double score, const DriftCorrectionOptions& options);
+double match_sd_m(const PoseFix& fix, const DriftCorrectionOptions& options);
 
 /// The share of its information that a fix does not have in common with those next to it on the way.
 std::vector<pose_graph::Constraint> constraints_of(std::span<const PoseFix> fixes,

@@ -35,7 +35,7 @@ struct FixedLagCorrector::Window {
     since_fix_m = 0;
     graph.fixes.push_back({.node = odometry.size() - 1,
                            .pose = fix->pose,
-                           .sigma_m = match_sd_m(fix->score, options.drift),
+                           .sigma_m = match_sd_m(*fix, options.drift),
                            .share = std::max(share, 1e-3)});
     if (!placed) fixes.push_back({.node = odometry.size() - 1, .pose = fix->pose, .score = fix->score});
   }

@@ -31,7 +31,11 @@ RouteFixes pose_fixes(const Route& route, const std::vector<Match>& matches) {
     if (!says_where(matches[i])) continue;
     const std::size_t on = index_of(matches[i]);
     if (surveyed ? route.traverses[on].surveyed : on == *result.traverse)
-      result.fixes.push_back({.node = i, .pose = *matches[i].place->pose, .score = matches[i].score});
+      result.fixes.push_back({.node = i,
+                              .pose = *matches[i].place->pose,
+                              .score = matches[i].score,
+                              .probability = matches[i].probability,
+                              .sd_m = matches[i].sd_m});
   }
   return result;
 }

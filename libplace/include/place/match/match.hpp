@@ -24,8 +24,12 @@ struct Match {
   double query_time_s = 0;       ///< since its first frame
   std::optional<Place> place;    ///< none: nothing to match with (see `SequenceMatch::reference`)
   double score = 0;              ///< higher is surer; 0 without a place
-  bool accepted = false;         ///< score >= the acceptance threshold
-  bool partial = false;          ///< found on a part of its line only, at an end of either walk
+  /// That the place is not a false one; none where there was too little to learn it from, or no place.
+  std::optional<double> probability;
+  std::optional<double> sd_keyframes;  ///< how exactly it says where: standard deviation, of the traverse
+  std::optional<double> sd_m;          ///< the same in metres of the way, where surveyed
+  bool accepted = false;               ///< the acceptance that the settings ask for
+  bool partial = false;                ///< found on a part of its line only, at an end of either walk
 };
 
 }  // namespace place

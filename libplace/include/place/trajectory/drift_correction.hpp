@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct PoseFix {
   std::size_t node = 0;  ///< index in the walk's odometry
   vo::Pose2 pose;        ///< of the one who walked there before
   double score = 0;      ///< of the match, in deviations of the enhanced cost
+  /// That the match is right, and its standard deviation along the path if it is, metres. With a probability
+  /// the score does not count.
+  std::optional<double> probability, sd_m;
 };
 
 /// The same place seen twice in one walk.
@@ -42,7 +46,7 @@ struct DriftCorrectionOptions {
   double node_noise_rad = 0.01;        ///< of one node's heading (the trunk swings), radians
 
   double match_least_m = 0.15;       ///< of the surest match along the path, metres
-  double match_doubtful_m = 3.5;     ///< the same at score 0, beside `match_least_m`; fades with ...
+  double match_doubtful_m = 3.5;     ///< the same at probability or score 0, beside that; fades with ...
   double match_score = 1;            ///< ... this score, in its unit
   double aside_m = 0.25;             ///< across the path: two walkers do not tread the same line, metres
   double match_heading_rad = 0.15;   ///< of a match's heading; far larger errors are let go
@@ -85,9 +89,10 @@ struct CorrectedWalk {
 /// A node has its pose and, slowly varying, the scale of steps, that of turns (a wrong field of view makes
 /// every turn too large by the same share) and a drift to one side per metre. Odometry ties neighbours; a fix
 /// ties a node to the pose of the matched place, loosely across the path, as walkers keep to different lanes,
-/// and to its heading. A fix counts by its score: its standard deviation is match_least_m + match_doubtful_m
-/// * exp(-score / match_score). Neighbouring fixes repeat each other's errors, so that there is a limit to
-/// what a metre of the way tells.
+/// and to its heading. A fix counts by its probability p: its variance along the path is match_least_m^2 +
+/// sd_m^2 + (1 - p) match_doubtful_m^2; without one by its score, its standard deviation is match_least_m +
+/// match_doubtful_m * exp(-score / match_score). Neighbouring fixes repeat each other's errors, so that there
+/// is a limit to what a metre of the way tells.
 ///
 /// Wrong matches let go: graduated non-convexity with Geman and McClure's cost (Yang, Antonante, Tzoumas and
 /// Carlone, "Graduated Non-Convexity for Robust Spatial Perception", 2020). It begins where matches agree:

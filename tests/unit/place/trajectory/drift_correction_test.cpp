@@ -202,6 +202,26 @@ TEST(DriftCorrection, CovarianceIsHonestWhereErrorsAreAsTheOptionsSay) {
   EXPECT_NEAR(static_cast<double>(inside) / static_cast<double>(all), 0.9, 0.05);
 }
 
+TEST(DriftCorrection, BelievesAMatchByItsProbabilityAndSpread) {
+  // One fix at the end of a straight walk pulls the more the surer it is, and the sharper.
+  vo::Trajectory straight;
+  for (int i = 0; i <= 40; ++i) straight.push_back({1.0 * i, {0, 0.5 * i, 0}});
+  const auto end_of = [&](double probability, double sd_m) {
+    std::vector<PoseFix> fixes;
+    for (std::size_t i = 0; i <= 36; i += 4)
+      fixes.push_back({.node = i, .pose = straight[i].pose, .score = 3, .probability = 0.999, .sd_m = 0.1});
+    vo::Pose2 ahead = straight[40].pose;
+    ahead.y_m += 0.5;
+    fixes.push_back({.node = 40, .pose = ahead, .score = 3, .probability = probability, .sd_m = sd_m});
+    return correct_drift(straight, fixes).poses[40].pose.y_m;
+  };
+  const double surest = end_of(0.999, 0.1), blunt = end_of(0.999, 1), doubtful = end_of(0.5, 0.1);
+  EXPECT_GT(surest, blunt);
+  EXPECT_GT(surest, doubtful);
+  EXPECT_GT(blunt, 20);
+  EXPECT_GT(doubtful, 20);
+}
+
 TEST(DriftCorrection, ClosesALoop) {
   // Twice round a square of 20 m; odometry turns too far.
   vo::Trajectory truth{{0, {}}};

@@ -41,6 +41,13 @@ TEST(PoseFixes, AreSurveyedIfAnyIs) {
   EXPECT_EQ(surveyed.fixes[2].node, 5U);
   EXPECT_EQ(surveyed.traverse, 2U);  // with two of the three
 
+  matches[1].probability = 0.97;
+  matches[1].sd_m = 0.4;
+  const auto sure = place::pose_fixes(route, matches);
+  EXPECT_EQ(sure.fixes[0].probability, 0.97);
+  EXPECT_EQ(sure.fixes[0].sd_m, 0.4);
+  EXPECT_EQ(sure.fixes[1].probability, std::nullopt);
+
   // Two walks' odometry have nothing in common: the one with more.
   const auto own = place::pose_fixes(
       route, {match_on("own again", 1), match_on("own odometry", 2), match_on("own odometry", 3)});
