@@ -1,13 +1,7 @@
-#include "build.hpp"
-
 #include "command.hpp"
 #include "progress_bar.hpp"
-#include "route_settings.hpp"
 #include "run_directory.hpp"
-#include "settings.hpp"
-#include "survey.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -15,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <place/place.hpp>
+#include <place/route/survey.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 
@@ -22,7 +18,7 @@ namespace retrace {
 namespace {
 
 struct BuildOptions {
-  Settings settings;
+  place::Settings settings;
   CommonOptions common;
   std::string walk;
   std::string output;
@@ -48,29 +44,23 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
   }
 }
 
-/// A track's poses are metres about the route's origin; other coordinates on the route would not fit them.
-void check_poses_are_geographic(const place::Route& route, const std::string& path) {
+std::optional<place::Survey> survey_of(const BuildOptions& options, const vo::Walk& walk,
+                                       place::Route& route) {
+  if (!options.truth.empty()) return place::survey_from_truth(options.truth, walk);
+  if (!options.trajectory.empty()) return place::survey_from_trajectory(options.trajectory, walk);
+  if (options.track.empty()) return {};
+  // A track's poses are metres about the route's origin; other coordinates on the route would not fit them.
   for (const place::Traverse& traverse : route.traverses) {
     if (!route.origin && traverse.surveyed && !traverse.pose_source.empty()) {
-      throw vo::Error(path, fmt::format("has poses of {} that are not geographic", traverse.pose_source),
+      throw vo::Error(options.output,
+                      fmt::format("has poses of {} that are not geographic", traverse.pose_source),
                       "--truth or --trajectory in the same coordinates, or another route");
     }
   }
+  return place::survey_from_track(options.track, walk, route.origin);
 }
 
-std::size_t put(place::Route& route, place::Traverse traverse) {
-  auto& all = route.traverses;
-  const auto old = std::ranges::find(all, traverse.name, &place::Traverse::name);
-  const auto index = static_cast<std::size_t>(old - all.begin());
-  if (old == all.end()) {
-    all.push_back(std::move(traverse));
-  } else {
-    *old = std::move(traverse);
-  }
-  return index;
-}
-
-void print(const BuildOptions& options, const place::Route& route, const AddedTraverse& added) {
+void print(const BuildOptions& options, const place::Route& route, const place::AddedTraverse& added) {
   const place::Traverse& traverse = route.traverses[added.index];
   if (options.common.json) {
     const nlohmann::ordered_json json{{"route", options.output},
@@ -79,7 +69,7 @@ void print(const BuildOptions& options, const place::Route& route, const AddedTr
                                       {"duration_s", traverse.duration_s},
                                       {"keyframes", traverse.keyframes.size()},
                                       {"traverses", route.traverses.size()},
-                                      {"sampling_unit", route.sampling.unit},
+                                      {"sampling_unit", route.unit},
                                       {"relative_scale", added.scale}};
     fmt::print("{}\n", json.dump(2));
     return;
@@ -92,93 +82,56 @@ void print(const BuildOptions& options, const place::Route& route, const AddedTr
   fmt::print("; {} traverse{} in all\n", route.traverses.size(), route.traverses.size() == 1 ? "" : "s");
 }
 
-void build(const CLI::App& app, BuildOptions& options) {
-  Settings& settings = options.settings;
-  vo::set_thread_count(settings.threads);
-  resolve(app, settings);
+void build(BuildOptions& options) {
+  vo::set_thread_count(options.settings.threads.value_or(0));
   check_writable(options.output);
   if (options.name.empty()) options.name = default_name(options.walk);
-
   const bool exists = std::filesystem::exists(options.output);
-  place::Route route = exists ? place::read_route(options.output) : new_route(settings);
-  if (exists) {
-    take_from_route(app, options.output, route, settings);
-    const place::Sampling& mine = settings.sampling.sampling;
-    if (mine.motion != route.sampling.motion || mine.every != route.sampling.every ||
-        mine.n != route.sampling.n) {
-      throw vo::Error(options.output, "was sampled with other --motion, --every or --sampling-n",
-                      "the same for every traverse of a route; leave them out");
-    }
-  }
+  place::Route route = exists ? place::read_route(options.output) : place::new_route(options.settings);
   check_name_is_free(route, options);
+  const place::Settings settings = place::resolve(
+      options.settings, {.purpose = place::Purpose::kRoute, .route = exists ? &route.settings : nullptr});
 
   vo::Walk walk;
   {
     ProgressBar bar;
-    walk = read_walk(options.walk, settings, bar.callback());
+    walk = place::read(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
-  std::optional<place::Survey> survey;
-  if (!options.truth.empty()) survey = survey_from_truth(options.truth, walk);
-  if (!options.trajectory.empty()) survey = survey_from_trajectory(options.trajectory, walk);
-  if (!options.track.empty()) {
-    check_poses_are_geographic(route, options.output);
-    survey = survey_from_track(options.track, walk, route.origin);
-  }
-
-  const AddedTraverse added = add_traverse(route, options.name, walk, survey, settings);
+  const std::optional<place::Survey> survey = survey_of(options, walk, route);
+  const place::AddedTraverse added =
+      place::add(route, options.name, walk, survey, settings, options.common.force);
+  for (const std::string& warning : added.warnings) spdlog::warn("{}", warning);
   place::write_route(options.output, route);
   print(options, route, added);
 }
 
 }  // namespace
 
-AddedTraverse add_traverse(place::Route& route, const std::string& name, const vo::Walk& walk,
-                           const std::optional<place::Survey>& survey, const Settings& settings) {
-  // A route's unit comes from its first traverse; the walk that replaces it is tied to what it was.
-  const place::Traverse* reference = route.traverses.empty() ? nullptr : &route.traverses.front();
-  const place::SampledWalk sampled = place::sample_walk(walk, route, reference, settings.sampling);
-  for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
-  if (sampled.frames.size() < 2) {
-    throw vo::Error(walk.source, "gives a single keyframe",
-                    "a longer walk, or a smaller --sampling-n or --every");
-  }
-  place::Traverse traverse =
-      place::make_traverse(name, walk, sampled, survey ? survey : survey_from_odometry(sampled.trajectory));
-  for (const SettingEntry& entry : entries(settings)) traverse.settings[entry.name] = entry.value;
-  route.sampling.unit = sampled.unit;
-  if (reference == nullptr) route.sampling.metric = sampled.metric;
-  return {put(route, std::move(traverse)), sampled.scale};
-}
-
-Command add_build(CLI::App& root) {
+std::function<void()> declare_build(Arguments& arguments) {
   auto options = std::make_shared<BuildOptions>();
-  CLI::App* app = root.add_subcommand("build", "make a route database of a walk, or add a traverse to one");
-  app->add_option("walk", options->walk, "video file, folder of images, or camera:N")->required();
-  app->add_option("-o,--output", options->output, "route database to create or add to")->required();
-  app->add_option("--name", options->name, "name of the traverse [the recording's]");
-  CLI::Option* truth = app->add_option("--truth", options->truth,
-                                       "truth.csv of the walk: position and distance of every frame");
-  app->add_option("--trajectory", options->trajectory,
-                  "surveyed poses of the walk, TUM format, seconds since its first frame")
-      ->excludes(truth);
-  app->add_option("--track", options->track,
-                  "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg")
-      ->excludes(truth)
-      ->excludes("--trajectory");
-  add_frame_options(*app, options->settings);
-  add_sampling_options(*app, options->settings);
-  add_odometry_options(*app, options->settings);
-  add_general_options(*app, options->settings);
-  add_config_option(*app, options->common);
-  add_force_option(*app, options->common);
-  add_json_option(*app, options->common);
-  app->footer(
+  arguments.positional("walk", options->walk, "video file, folder of images, or camera:N");
+  arguments.option("-o,--output", options->output, "route database to create or add to").required();
+  arguments.option("--name", options->name, "name of the traverse [the recording's]");
+  const Argument truth = arguments.option("--truth", options->truth,
+                                          "truth.csv of the walk: position and distance of every frame");
+  Argument trajectory =
+      arguments.option("--trajectory", options->trajectory,
+                       "surveyed poses of the walk, TUM format, seconds since its first frame");
+  arguments
+      .option("--track", options->track,
+              "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg")
+      .excludes(truth)
+      .excludes(trajectory.excludes(truth));
+  using enum place::SettingGroup;
+  arguments.settings(options->settings, {kReading, kMotion, kOdometry, kGeneral});
+  arguments.common(options->common);
+  arguments.footer(
       "Examples:\n"
       "  retrace build day.mp4 -o route.db\n"
       "  retrace build evening.mp4 -o route.db --name evening    (a second traverse of the same route)\n"
       "  retrace build frames/ -o route.db --motion none --every 1");
-  return {app, [app, options] { build(*app, *options); }};
+  return [options] { build(*options); };
 }
 
 }  // namespace retrace

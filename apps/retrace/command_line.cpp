@@ -1,12 +1,14 @@
 #include "command_line.hpp"
 
 #include "command.hpp"
-#include "config_file.hpp"
+#include "shell_documents.hpp"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <exception>
 #include <new>
 #include <string>
@@ -16,6 +18,7 @@
 #include <malloc.h>
 #endif
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -25,20 +28,73 @@
 #include <place/version.hpp>
 #include <vo/base/error.hpp>
 
+namespace retrace {
 namespace {
 
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;
 
-/// The file after --config, if there is one; its settings are parsed before the command line's, which so come
-/// on top.
-std::string config_file_in(const std::vector<std::string>& arguments) {
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    constexpr std::string_view kFlag = "--config";
-    if (arguments[i] == kFlag && i + 1 < arguments.size()) return arguments[i + 1];
-    if (arguments[i].starts_with("--config=")) return arguments[i].substr(kFlag.size() + 1);
+struct CommandEntry {
+  const char* name;
+  const char* description;
+  Declare* declare;
+};
+
+constexpr std::array kCommands{
+    CommandEntry{"demo",
+                 "draw a street by day and by night, and find the one walk on the other; needs no data",
+                 declare_demo},
+    CommandEntry{"build", "make a route database of a walk, or add a traverse to one", declare_build},
+    CommandEntry{"localise", "find a walk on a route: a position for every keyframe of it", declare_localise},
+    CommandEntry{
+        "correct",
+        "the corrected trajectory of a run again, after its matches were edited or from other odometry",
+        declare_correct},
+    CommandEntry{"evaluate", "precision, recall and errors of a run against the truth", declare_evaluate},
+    CommandEntry{"sweep", "which settings find a walk on another best, by precision and recall",
+                 declare_sweep},
+    CommandEntry{"compare", "precision and recall of several runs of one walk, and how sure they are",
+                 declare_compare},
+    CommandEntry{"inspect", "show what is in a route database", declare_inspect},
+    CommandEntry{"odometry", "steps, headings and the trajectory of a walk", declare_odometry},
+    CommandEntry{"evaluate-odometry", "steps and trajectory of a walk against the truth",
+                 declare_evaluate_odometry},
+    CommandEntry{"simulate", "draw the video of a walk, and its truth at every frame", declare_simulate},
+    CommandEntry{"config", "write all settings with their defaults, as TOML for --config", declare_config},
+};
+
+/// A command as declared to CLI11.
+struct Declared {
+  CLI::App* app;
+  Arguments arguments;
+  std::function<void()> run;
+};
+
+std::deque<Declared> declare_all(CLI::App& root, bool all) {
+  std::deque<Declared> commands;
+  for (const CommandEntry& entry : kCommands) {
+    CLI::App* app = root.add_subcommand(entry.name, entry.description);
+    Declared& declared = commands.emplace_back(Declared{app, Arguments(*app, all), {}});
+    declared.run = entry.declare(declared.arguments);
   }
-  return {};
+  return commands;
+}
+
+/// The completions of a shell, or a page of the manual, made of what is declared.
+void add_documents(CLI::App& root, const CLI::App& documented) {
+  CLI::App* completion = root.add_subcommand("completion", "write the completions of a shell");
+  auto shell = std::make_shared<std::string>();
+  completion->add_option("shell", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+  completion->footer(
+      "Example:\n  retrace completion bash > ~/.local/share/bash-completion/completions/retrace");
+  completion->callback([shell, &documented] {
+    fmt::print("{}", *shell == "bash" ? bash_completion(documented) : zsh_completion(documented));
+  });
+  CLI::App* manual = root.add_subcommand("manual", "write a page of the manual");
+  auto command = std::make_shared<std::string>();
+  manual->add_option("command", *command, "of which command; without, of the program");
+  manual->footer("Example:\n  retrace manual localise | man -l -");
+  manual->callback([command, &documented] { fmt::print("{}", manual_page(documented, *command)); });
 }
 
 /// CLI11 writes the upper bound of "positive" out, with its 309 digits.
@@ -63,16 +119,15 @@ std::string hint_for(const CLI::App& root) {
     }
   }
   for (const std::string& argument : root.remaining(true)) {
-    const std::string nearest = retrace::nearest_name(argument.substr(0, argument.find('=')), names);
+    const std::string nearest = place::nearest_name(argument.substr(0, argument.find('=')), names);
     if (!nearest.empty()) return fmt::format("; did you mean {}?", nearest);
   }
   return {};
 }
 
-int run(int argc, char** argv) {
-  CLI::App root("retrace: where you are on a route you have walked before, from video alone", "retrace");
+void describe(CLI::App& root) {
   root.set_version_flag("--version", fmt::format("retrace {}", place::kVersion));
-  root.set_help_all_flag("--help-all", "show the help of every command");
+  root.set_help_all_flag("--help-all", "show every setting of every command");
   root.require_subcommand(1);
   root.footer(
       "Examples:\n"
@@ -80,24 +135,21 @@ int run(int argc, char** argv) {
       "  retrace build day.mp4 -o route.db\n"
       "  retrace localise night.mp4 --route route.db -o run\n"
       "  retrace evaluate run --pairs pairs.csv --tolerance-frames 17");
-  const std::vector<retrace::Command> commands{
-      retrace::add_demo(root),     retrace::add_build(root),
-      retrace::add_localise(root), retrace::add_correct(root),
-      retrace::add_evaluate(root), retrace::add_sweep(root),
-      retrace::add_compare(root),  retrace::add_inspect(root),
-      retrace::add_odometry(root), retrace::add_evaluate_odometry(root),
-      retrace::add_simulate(root), retrace::add_config(root)};
+}
 
+int run(int argc, char** argv) {
+  constexpr const char* kAbout = "retrace: where you are on a route you have walked before, from video alone";
   std::vector<std::string> arguments(argv + 1, argv + argc);
+  const bool all = std::ranges::find(arguments, "--help-all") != arguments.end();
+  CLI::App root(kAbout, "retrace");
+  describe(root);
+  std::deque<Declared> commands = declare_all(root, all);
+  CLI::App documented(kAbout, "retrace");
+  describe(documented);
+  const std::deque<Declared> documented_commands = declare_all(documented, true);
+  add_documents(root, documented);
+
   try {
-    const std::string config = config_file_in(arguments);
-    const auto command = std::ranges::find_if(commands, [&](const retrace::Command& candidate) {
-      return !arguments.empty() && candidate.app->get_name() == arguments.front();
-    });
-    if (!config.empty() && command != commands.end()) {
-      const auto from_file = retrace::arguments_from_config(config, *command->app);
-      arguments.insert(arguments.begin() + 1, from_file.begin(), from_file.end());
-    }
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
     root.parse(reversed);
   } catch (const CLI::ParseError& error) {
@@ -107,16 +159,16 @@ int run(int argc, char** argv) {
                root.get_subcommands().empty() ? "" : root.get_subcommands().front()->get_name() + " ");
     return kUsage;
   }
-  for (const retrace::Command& command : commands) {
-    if (command.app->parsed()) command.run();
+  for (Declared& command : commands) {
+    if (!command.app->parsed()) continue;
+    command.arguments.finish();
+    command.run();
   }
   if (std::fflush(stdout) != 0) throw vo::Error("standard output", "cannot be written");
   return 0;
 }
 
 }  // namespace
-
-namespace retrace {
 
 extern "C" int retrace_run(int argc, char** argv) {
 #if defined(__GLIBC__)
@@ -136,7 +188,7 @@ extern "C" int retrace_run(int argc, char** argv) {
   } catch (const vo::Error& error) {
     fmt::print(stderr, "retrace: {}\n", error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "retrace: out of memory; fewer frames or a smaller --thumbnail-width expected\n");
+    fmt::print(stderr, "retrace: out of memory; fewer frames or a smaller thumbnail-width expected\n");
   } catch (const std::exception& error) {
     fmt::print(stderr, "retrace: internal error: {}\n", error.what());
   }

@@ -1,10 +1,10 @@
 #include "command.hpp"
+#include "evaluation_files.hpp"
 #include "report/compare_report.hpp"
 #include "run_directory.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include <fmt/format.h>
@@ -13,7 +13,6 @@
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/io/atomic_file.hpp>
-#include <vo/io/csv.hpp>
 
 namespace retrace {
 namespace {
@@ -29,29 +28,6 @@ struct CompareOptions {
   place::BootstrapOptions bootstrap;
   int threads = 0;
 };
-
-/// What `retrace evaluate` left: errors.csv.
-place::TimedQueries read_queries(const fs::path& folder) {
-  if (!fs::exists(folder / "errors.csv"))
-    throw vo::Error(folder.string(), "has no errors.csv", "a run that `retrace evaluate` has evaluated");
-  const vo::CsvTable table = vo::CsvTable::read(folder / "errors.csv");
-  const auto score = table.optional_numbers("score"), error = table.optional_numbers("error");
-  const auto has_truth = table.indices("has_truth");
-  place::TimedQueries run{.time_s = table.numbers("query_time_s"), .queries = {}};
-  for (std::size_t i = 0; i < table.rows(); ++i)
-    run.queries.push_back({.score = score[i], .has_truth = has_truth[i] != 0, .error = error[i]});
-  return run;
-}
-
-/// Tolerance and unit of a run's metrics.json.
-std::pair<double, std::string> read_tolerance(const fs::path& folder) {
-  std::ifstream file(folder / "metrics.json");
-  const auto json = ordered_json::parse(file, nullptr, false);
-  if (!json.is_object() || !json.contains("tolerance") || !json.contains("unit"))
-    throw vo::Error((folder / "metrics.json").string(), "has no tolerance",
-                    "one written by `retrace evaluate`");
-  return {json["tolerance"].get<double>(), json["unit"].get<std::string>()};
-}
 
 /// The folders' own names, or their whole paths where two have one name.
 std::vector<std::string> names_of(const CompareOptions& options) {
@@ -76,7 +52,7 @@ Comparison compare_runs(const CompareOptions& options) {
           options.folders[i], fmt::format("was evaluated with a tolerance of {:g} {}", tolerance, unit),
           fmt::format("{:g} {}, as {}", comparison.tolerance, comparison.unit, options.folders[0]));
     }
-    queries.push_back(read_queries(options.folders[i]));
+    queries.push_back(read_errors(options.folders[i]));
     comparison.runs.push_back({.name = names[i],
                                .folder = options.folders[i],
                                .evaluation = place::evaluate(queries.back().queries, tolerance),
@@ -162,38 +138,29 @@ void compare(const CompareOptions& options) {
 
 }  // namespace
 
-Command add_compare(CLI::App& root) {
+std::function<void()> declare_compare(Arguments& arguments) {
   auto options = std::make_shared<CompareOptions>();
   place::BootstrapOptions& bootstrap = options->bootstrap;
-  CLI::App* app = root.add_subcommand(
-      "compare", "precision and recall of several runs of one walk, and how sure they are");
-  app->add_option("runs", options->folders, "folders of evaluated runs, two or more")
-      ->required()
-      ->expected(2, 1000);
-  app->add_option("-o,--output", options->output, "folder for the results")->required();
-  app->add_option("--names", options->names, "names of the runs, comma between [their folders']")
-      ->delimiter(',');
-  app->add_option("--segment-s", bootstrap.segment_s,
-                  "seconds of walk that are drawn as a whole: neighbours are not independent")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app->add_option("--resamples", bootstrap.resamples, "bootstrap resamples")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 10000000));
-  app->add_option("--confidence", bootstrap.confidence, "share of the resamples an interval holds")
-      ->capture_default_str()
-      ->check(CLI::Range(0.01, 0.9999));
-  app->add_option("--seed", bootstrap.seed, "of the resamples")->capture_default_str();
-  app->add_option("--threads", options->threads, "threads, 0 for one per core; results do not depend on it")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  add_force_option(*app, options->common);
-  add_json_option(*app, options->common);
-  app->footer(
+  arguments.positional("runs", options->folders, "folders of evaluated runs, two or more").count(2, 1000);
+  arguments.option("-o,--output", options->output, "folder for the results").required();
+  arguments.option("--names", options->names, "names of the runs, comma between [their folders']")
+      .comma_separated();
+  arguments
+      .option("--segment-s", bootstrap.segment_s,
+              "seconds of walk that are drawn as a whole: neighbours are not independent")
+      .positive();
+  arguments.option("--resamples", bootstrap.resamples, "bootstrap resamples").range(1, 1e7);
+  arguments.option("--confidence", bootstrap.confidence, "share of the resamples an interval holds")
+      .range(0.01, 0.9999);
+  arguments.option("--seed", bootstrap.seed, "of the resamples");
+  arguments.option("--threads", options->threads, "threads, 0 for one per core; results do not depend on it")
+      .range(0, 1024);
+  arguments.common(options->common);
+  arguments.footer(
       "Examples:\n"
       "  retrace compare vanilla normalised -o comparison\n"
       "  retrace compare a/run b/run --names every-12th,by-motion -o comparison --segment-s 20");
-  return {app, [options] { compare(*options); }};
+  return [options] { compare(*options); };
 }
 
 }  // namespace retrace

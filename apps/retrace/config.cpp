@@ -1,6 +1,6 @@
 #include "command.hpp"
 #include "run_directory.hpp"
-#include "settings.hpp"
+#include "settings_file.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -11,20 +11,18 @@
 
 namespace retrace {
 
-Command add_config(CLI::App& root) {
+std::function<void()> declare_config(Arguments& arguments) {
   auto output = std::make_shared<std::string>();
-  CLI::App* app =
-      root.add_subcommand("config", "write all settings with their defaults, as TOML for --config");
-  app->add_option("-o,--output", *output, "file to write instead of standard output");
-  app->footer("Example:\n  retrace config -o my.toml");
-  return {app, [output] {
-            if (output->empty()) {
-              fmt::print("{}", to_toml({}));
-              return;
-            }
-            check_writable(*output);
-            vo::write_file(*output, to_toml({}));
-          }};
+  arguments.option("-o,--output", *output, "file to write instead of standard output");
+  arguments.footer("Example:\n  retrace config -o my.toml");
+  return [output] {
+    if (output->empty()) {
+      fmt::print("{}", to_toml({}));
+      return;
+    }
+    check_writable(*output);
+    vo::write_file(*output, to_toml({}));
+  };
 }
 
 }  // namespace retrace

@@ -1,14 +1,10 @@
-#include "build.hpp"
 #include "command.hpp"
-#include "evaluate.hpp"
-#include "localise.hpp"
+#include "evaluation_files.hpp"
 #include "progress_bar.hpp"
 #include "report/matrix_picture.hpp"
 #include "report/overview.hpp"
-#include "route_settings.hpp"
 #include "run_directory.hpp"
-#include "settings.hpp"
-#include "survey.hpp"
+#include "run_files.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -20,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <place/route/survey.hpp>
 #include <simulate/recorder.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
@@ -37,7 +34,7 @@ constexpr double kTolerance_m = 4;  // SSS 4.2
 constexpr const char* kReference = "day";
 
 struct DemoOptions {
-  Settings settings;
+  place::Settings settings;
   CommonOptions common;
   std::string output;
   std::uint64_t seed = 1;
@@ -59,8 +56,8 @@ struct Run {
   fs::path folder;
   int every = 0;  ///< frames between keyframes, without motion
   std::size_t references = 0;
-  LocalisedWalk localised;
-  EvaluatedRun evaluated;
+  WrittenRun written;
+  place::RunEvaluation evaluated;
 };
 
 /// Half a demo is none: Ctrl-C ends it.
@@ -71,47 +68,44 @@ vo::ProgressCallback or_interrupted(ProgressBar& bar) {
   };
 }
 
-DrawnWalk draw_and_read(const simulate::Options& options, const fs::path& folder, const Settings& settings) {
+DrawnWalk draw_and_read(const simulate::Options& options, const fs::path& folder,
+                        const place::Settings& settings) {
   DrawnWalk drawn{folder, {}};
   {
     ProgressBar bar;
     simulate::simulate_walk(options, folder, true, or_interrupted(bar));
   }
   ProgressBar bar;
-  drawn.walk = vo::read_walk(drawn.video(), settings.walk, or_interrupted(bar));
+  drawn.walk = place::read(drawn.video(), settings, or_interrupted(bar));
   return drawn;
 }
 
 /// What `retrace build`, `localise` and `evaluate` do, one after the other.
-Run find(const DrawnWalk& day, const DrawnWalk& night, const Settings& sampled_so, const fs::path& route_file,
-         const fs::path& folder) {
-  Settings settings = sampled_so;
-  place::Route route = new_route(settings);
-  add_traverse(route, kReference, day.walk, survey_from_truth(day.truth(), day.walk), settings);
+Run find(const DrawnWalk& day, const DrawnWalk& night, const place::Settings& settings,
+         const fs::path& route_file, const fs::path& folder) {
+  place::Route route = place::new_route(settings);
+  place::add(route, kReference, day.walk, place::survey_from_truth(day.truth(), day.walk), settings);
   place::write_route(route_file, route);
 
   prepare_run_directory(folder, {}, true);
-  const CLI::App nothing_given;
-  take_from_route(nothing_given, route_file.string(), route, settings);
-  Run run{folder, 0, route.traverses.front().keyframes.size(), {}, {}};
-  if (settings.sampling.sampling.motion == vo::MotionSource::kNone)
-    run.every = settings.sampling.sampling.every;
-  run.localised = localise_walk(route, route_file.string(), night.walk, settings, folder);
-  run.evaluated = evaluate_run({.folder = folder.string(),
-                                .truth = {.pairs = {},
-                                          .query_truth = night.truth(),
-                                          .reference_truth = day.truth(),
-                                          .tolerance_m = kTolerance_m,
-                                          .tolerance_frames = {}}});
+  Run run{folder, settings.every.value_or(0), route.traverses.front().keyframes.size(), {}, {}};
+  run.written = localise_into(folder, route, route_file.string(), night.walk, {});
+  run.evaluated =
+      evaluate_folder(folder, {.pairs = {},
+                               .query_truth = night.truth(),
+                               .reference_truth = day.truth(),
+                               .tolerance = {.tolerance_m = kTolerance_m, .tolerance_frames = {}}})
+          .first;
   return run;
 }
 
 /// Keeps every K-th frame, such that there are about as many keyframes as `run` has.
-Settings vanilla_like(const Run& run, const DrawnWalk& day, const DrawnWalk& night, Settings settings) {
+place::Settings vanilla_like(const Run& run, const DrawnWalk& day, const DrawnWalk& night) {
   const auto frames = static_cast<double>(day.walk.frames() + night.walk.frames());
-  const auto keyframes = static_cast<double>(run.references + run.localised.found.matches.size());
-  settings.sampling.sampling.motion = vo::MotionSource::kNone;
-  settings.sampling.sampling.every = std::max(1, static_cast<int>(std::lround(frames / keyframes)));
+  const auto keyframes = static_cast<double>(run.references + run.written.run.matches.size());
+  place::Settings settings;
+  settings.motion = "none";
+  settings.every = std::max(1, static_cast<int>(std::lround(frames / keyframes)));
   return settings;
 }
 
@@ -132,9 +126,9 @@ cv::Mat view_at(const DrawnWalk& drawn, double distance_m) {
 std::vector<std::uint8_t> overview(const DrawnWalk& day, const DrawnWalk& night, const Run& vanilla,
                                    const Run& normalised, double length_m) {
   const auto matrix = [](const Run& run, const std::string& name) {
+    const KeptMatrix& kept = run.written.matrices.front();
     const std::vector<std::uint8_t> png =
-        matrix_picture(run.localised.found.matrices.front().enhanced, run.localised.found.matches, kReference,
-                       kOverviewTile_px, run.localised.found.matrices.front().shrink);
+        matrix_picture(kept.enhanced, run.written.run.matches, kReference, kOverviewTile_px, kept.shrink);
     return OverviewTile{cv::imdecode(png, cv::IMREAD_COLOR),
                         fmt::format("{}: max-F1 {:.2f}", name, run.evaluated.evaluation.best.f1)};
   };
@@ -171,7 +165,7 @@ void print_row(const std::string& name, const Run& run) {
 
 void demo(const DemoOptions& options) {
   const auto began = std::chrono::steady_clock::now();
-  vo::set_thread_count(options.settings.threads);
+  vo::set_thread_count(options.settings.threads.value_or(0));
   simulate::Options by_day;
   by_day.seed = options.seed;
   by_day.length_m = options.length_m;
@@ -183,9 +177,8 @@ void demo(const DemoOptions& options) {
   by_night.lateral_m = 0.25;
   simulate::validate(by_night);
 
-  Settings by_steps = options.settings;
-  by_steps.sampling.sampling.motion = vo::MotionSource::kSteps;
-  follow_motion(by_steps);
+  place::Settings by_steps;
+  by_steps.motion = "steps";
 
   const fs::path folder = options.output;
   prepare_run_directory(folder, {"day", "night", "route.db", "vanilla", "normalised", "overview.png"},
@@ -194,8 +187,8 @@ void demo(const DemoOptions& options) {
   const DrawnWalk night = draw_and_read(by_night, folder / "night", by_steps);
   const Run normalised = find(day, night, by_steps, folder / "route.db", folder / "normalised");
   fs::create_directories(folder / "vanilla");
-  const Run vanilla = find(day, night, vanilla_like(normalised, day, night, options.settings),
-                           folder / "vanilla" / "route.db", folder / "vanilla");
+  const Run vanilla = find(day, night, vanilla_like(normalised, day, night), folder / "vanilla" / "route.db",
+                           folder / "vanilla");
   const std::vector<std::uint8_t> png = overview(day, night, vanilla, normalised, options.length_m);
   vo::write_file(folder / "overview.png", {reinterpret_cast<const char*>(png.data()), png.size()});
   if (!options.keep_videos) {
@@ -228,24 +221,21 @@ void demo(const DemoOptions& options) {
 
 }  // namespace
 
-Command add_demo(CLI::App& root) {
+std::function<void()> declare_demo(Arguments& arguments) {
   auto options = std::make_shared<DemoOptions>();
-  CLI::App* app = root.add_subcommand(
-      "demo", "draw a street by day and by night, and find the one walk on the other; needs no data");
-  app->add_option("-o,--output", options->output, "folder for all of it")->required();
-  app->add_option("--seed", options->seed, "the street")->capture_default_str();
-  app->add_option("--length-m", options->length_m, "metres of street")->capture_default_str();
-  app->add_flag("--keep-videos", options->keep_videos, "leave the two videos there");
-  add_general_options(*app, options->settings);
-  add_force_option(*app, options->common);
-  add_json_option(*app, options->common);
-  app->footer(
+  arguments.option("-o,--output", options->output, "folder for all of it").required();
+  arguments.option("--seed", options->seed, "the street");
+  arguments.option("--length-m", options->length_m, "metres of street");
+  arguments.flag("--keep-videos", options->keep_videos, "leave the two videos there");
+  arguments.settings(options->settings, {place::SettingGroup::kGeneral});
+  arguments.common(options->common);
+  arguments.footer(
       "The same by hand, with --keep-videos:\n"
       "  retrace build demo/day/walk.mp4 -o again.db --motion steps --truth demo/day/truth.csv\n"
       "  retrace localise demo/night/walk.mp4 --route again.db -o again\n"
       "  retrace evaluate again --query-truth demo/night/truth.csv --reference-truth demo/day/truth.csv \\\n"
       "    --tolerance-m 4");
-  return {app, [options] { demo(*options); }};
+  return [options] { demo(*options); };
 }
 
 }  // namespace retrace

@@ -155,44 +155,38 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
 
 }  // namespace
 
-Command add_evaluate_odometry(CLI::App& root) {
+std::function<void()> declare_evaluate_odometry(Arguments& arguments) {
   auto options = std::make_shared<EvaluateOdometryOptions>();
   place::OdometryEvaluationOptions& evaluation = options->evaluation;
-  CLI::App* app =
-      root.add_subcommand("evaluate-odometry", "steps and trajectory of a walk against the truth");
-  app->add_option("run", options->folder, "folder written by `retrace odometry`")->required();
-  CLI::Option_group* truth = app->add_option_group("Truth");
-  truth->add_option("--truth", options->truth,
-                    "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up");
-  truth->add_option(
+  arguments.positional("run", options->folder, "folder written by `retrace odometry`");
+  const Argument truth =
+      arguments.option("--truth", options->truth,
+                       "truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up");
+  const Argument kitti = arguments.option(
       "--kitti-poses", options->kitti_poses,
       "true poses in KITTI's form: its errors of visual odometry alone, which `retrace odometry "
       "--visual-odometry` wrote");
-  truth->require_option(1);
-  CLI::Option* scale =
-      app->add_option("--map-scale-m-per-px", options->map_scale_m_per_px, "metres of one pixel of that map")
-          ->check(CLI::PositiveNumber);
-  app->add_option("--map-image", options->map_image, "that map, PNG or JPEG, to draw the trajectory over")
-      ->check(CLI::ExistingFile)
-      ->needs(scale);
-  app->add_option("--true-steps", options->true_steps, "steps counted, where the truth has none")
-      ->check(CLI::Range(0, 1000000000));
-  app->add_option("--segments", evaluation.segments, "random segments measured [PVO 5.2]")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  app->add_option("--segment-m", evaluation.segment_m,
-                  "metres of a segment [PVO 5.2: 50 indoors, 100 outdoors]")
-      ->capture_default_str()
-      ->check(CLI::Range(5.0, 1e6));
-  app->add_option("--seed", evaluation.seed, "of the segments' starts")->capture_default_str();
-  add_json_option(*app, options->common);
-  app->footer(
+  arguments.exactly_one({truth, kitti});
+  Argument scale = arguments.option("--map-scale-m-per-px", options->map_scale_m_per_px,
+                                    "metres of one pixel of that map");
+  scale.positive();
+  arguments.option("--map-image", options->map_image, "that map, PNG or JPEG, to draw the trajectory over")
+      .existing_file()
+      .needs(scale);
+  arguments.option("--true-steps", options->true_steps, "steps counted, where the truth has none");
+  arguments.option("--segments", evaluation.segments, "random segments measured [PVO 5.2]").range(1, 1e6);
+  arguments
+      .option("--segment-m", evaluation.segment_m, "metres of a segment [PVO 5.2: 50 indoors, 100 outdoors]")
+      .range(5, 1e6);
+  arguments.option("--seed", evaluation.seed, "of the segments' starts");
+  arguments.json(options->common);
+  arguments.footer(
       "Examples:\n"
       "  retrace evaluate-odometry walk --truth truth.csv\n"
       "  retrace evaluate-odometry walk --truth way.csv --map-scale-m-per-px 0.2 --true-steps 512 "
       "--segment-m 50\n"
       "  retrace evaluate-odometry drive --kitti-poses 03.txt");
-  return {app, [options] { evaluate_odometry(*options); }};
+  return [options] { evaluate_odometry(*options); };
 }
 
 }  // namespace retrace

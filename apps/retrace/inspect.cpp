@@ -14,8 +14,22 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string_view name_of(vo::PatchShape shape) {
-  return shape == vo::PatchShape::kGrid ? "grid" : "window";
+ordered_json settings_json(const place::Settings& settings) {
+  ordered_json json = ordered_json::object();
+  for (const place::Setting& setting : place::settings_table()) {
+    const std::optional<std::string> value = place::text_of(settings, setting);
+    if (value) json[std::string(setting.name)] = *value;
+  }
+  return json;
+}
+
+std::string settings_text(const place::Settings& settings) {
+  std::string text;
+  for (const place::Setting& setting : place::settings_table()) {
+    if (const auto value = place::text_of(settings, setting))
+      text += fmt::format(" {}={}", setting.name, *value);
+  }
+  return text;
 }
 
 ordered_json as_json(const std::string& path, const place::Route& route) {
@@ -23,17 +37,9 @@ ordered_json as_json(const std::string& path, const place::Route& route) {
                     {"bytes", std::filesystem::file_size(path)},
                     {"schema_version", place::kRouteSchemaVersion},
                     {"software_version", route.software_version},
-                    {"thumbnail", {{"width", route.thumbnail.width}, {"height", route.thumbnail.height}}},
-                    {"patch",
-                     {{"side_px", route.patch.patch_px},
-                      {"shape", name_of(route.patch.shape)},
-                      {"min_deviation", route.patch.min_deviation},
-                      {"min_contrast", route.patch.min_contrast}}},
-                    {"sampling",
-                     {{"motion", vo::name_of(route.sampling.motion)},
-                      {"every", route.sampling.every},
-                      {"n", route.sampling.n},
-                      {"unit", route.sampling.unit}}},
+                    {"settings", settings_json(route.settings)},
+                    {"unit", route.unit},
+                    {"metric", route.metric},
                     {"traverses", ordered_json::array()}};
   for (const place::Traverse& traverse : route.traverses) {
     std::size_t poses = 0, previews = 0;
@@ -51,21 +57,18 @@ ordered_json as_json(const std::string& path, const place::Route& route) {
       }
       keyframes.push_back(std::move(k));
     }
-    json["traverses"].push_back(
-        {{"name", traverse.name},
-         {"source", traverse.source},
-         {"frames", traverse.frames},
-         {"duration_s", traverse.duration_s},
-         {"frame_size", {traverse.frame_width_px, traverse.frame_height_px}},
-         {"pose_source", traverse.pose_source},
-         {"surveyed", traverse.surveyed},
-         {"keyframes", traverse.keyframes.size()},
-         {"poses", poses},
-         {"previews", previews},
-         {"motion_model",
-          {{"error", traverse.motion_model.error}, {"separation", traverse.motion_model.separation}}},
-         {"settings", traverse.settings},
-         {"keyframe", std::move(keyframes)}});
+    json["traverses"].push_back({{"name", traverse.name},
+                                 {"source", traverse.source},
+                                 {"frames", traverse.frames},
+                                 {"duration_s", traverse.duration_s},
+                                 {"frame_size", {traverse.frame_width_px, traverse.frame_height_px}},
+                                 {"pose_source", traverse.pose_source},
+                                 {"surveyed", traverse.surveyed},
+                                 {"keyframes", traverse.keyframes.size()},
+                                 {"poses", poses},
+                                 {"previews", previews},
+                                 {"settings", settings_json(traverse.settings)},
+                                 {"keyframe", std::move(keyframes)}});
   }
   return json;
 }
@@ -74,17 +77,9 @@ void print(const std::string& path, const place::Route& route) {
   fmt::print("{}: {:.2f} MB, schema {}, written by retrace {}\n", path,
              static_cast<double>(std::filesystem::file_size(path)) / 1e6, place::kRouteSchemaVersion,
              route.software_version);
-  fmt::print(
-      "thumbnails {}x{} px; patches {} px, {}, at least {} grey levels or {} of their median deviation\n",
-      route.thumbnail.width, route.thumbnail.height, route.patch.patch_px, name_of(route.patch.shape),
-      route.patch.min_deviation, route.patch.min_contrast);
-  if (route.sampling.motion == vo::MotionSource::kNone) {
-    fmt::print("sampling: every {} frames\n", route.sampling.every);
-  } else {
-    const bool metric = route.sampling.metric;
-    fmt::print("sampling: by {}, unit {:.4f} {} (n = {})\n", vo::name_of(route.sampling.motion),
-               route.sampling.unit, metric ? "m" : "frames of mean speed", route.sampling.n);
-  }
+  if (route.unit > 0)
+    fmt::print("keyframes {:.4f} {} apart\n", route.unit, route.metric ? "m" : "frames of mean speed");
+  fmt::print("settings:{}\n", settings_text(route.settings));
   for (const place::Traverse& traverse : route.traverses) {
     fmt::print("\ntraverse '{}' from {}\n", traverse.name, traverse.source);
     fmt::print("  {} frames of {}x{} px, {:.2f} s; {} keyframes\n", traverse.frames, traverse.frame_width_px,
@@ -100,41 +95,29 @@ void print(const std::string& path, const place::Route& route) {
     } else {
       fmt::print("  no poses\n");
     }
-    if (traverse.motion_model.learned()) {
-      fmt::print("  motion model (alignment error -> frames):");
-      for (std::size_t i = 0; i < traverse.motion_model.error.size(); ++i) {
-        fmt::print(" {:.3f}->{:.0f}", traverse.motion_model.error[i], traverse.motion_model.separation[i]);
-      }
-      fmt::print("\n");
-    }
-    fmt::print("  settings:");
-    for (const auto& [name, value] : traverse.settings) {
-      if (!value.empty()) fmt::print(" {}={}", name, value);
-    }
-    fmt::print("\n");
+    fmt::print("  settings:{}\n", settings_text(traverse.settings));
   }
 }
 
 }  // namespace
 
-Command add_inspect(CLI::App& root) {
+std::function<void()> declare_inspect(Arguments& arguments) {
   struct InspectOptions {
     CommonOptions common;
     std::string route;
   };
   auto options = std::make_shared<InspectOptions>();
-  CLI::App* app = root.add_subcommand("inspect", "show what is in a route database");
-  app->add_option("route", options->route, "route database")->required();
-  add_json_option(*app, options->common);
-  app->footer("Example:\n  retrace inspect route.db --json");
-  return {app, [options] {
-            const place::Route route = place::read_route(options->route);
-            if (options->common.json) {
-              fmt::print("{}\n", as_json(options->route, route).dump(2));
-            } else {
-              print(options->route, route);
-            }
-          }};
+  arguments.positional("route", options->route, "route database");
+  arguments.json(options->common);
+  arguments.footer("Example:\n  retrace inspect route.db --json");
+  return [options] {
+    const place::Route route = place::read_route(options->route);
+    if (options->common.json) {
+      fmt::print("{}\n", as_json(options->route, route).dump(2));
+    } else {
+      print(options->route, route);
+    }
+  };
 }
 
 }  // namespace retrace

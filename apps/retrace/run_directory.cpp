@@ -27,8 +27,7 @@ void check_writable_folder(const fs::path& folder) {
 
 }  // namespace
 
-void prepare_run_directory(const fs::path& folder, std::initializer_list<std::string_view> files,
-                           bool force) {
+void prepare_run_directory(const fs::path& folder, const std::vector<std::string>& files, bool force) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error && !fs::exists(folder)) {
@@ -37,7 +36,7 @@ void prepare_run_directory(const fs::path& folder, std::initializer_list<std::st
   }
   check_writable_folder(folder);
   if (force) return;
-  for (const std::string_view file : files) {
+  for (const std::string& file : files) {
     const fs::path path = folder / file;
     if (fs::exists(path))
       throw vo::Error(path.string(), "already exists", "another folder, or --force to overwrite");

@@ -1,7 +1,5 @@
-#include "choice.hpp"
 #include "command.hpp"
 #include "progress_bar.hpp"
-#include "settings.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -17,13 +15,13 @@ namespace {
 
 struct SimulateOptions {
   simulate::Options walk;
-  Settings settings;
+  place::Settings settings;
   CommonOptions common;
   std::string output;
 };
 
 void simulate_walk(const SimulateOptions& options) {
-  vo::set_thread_count(options.settings.threads);
+  vo::set_thread_count(options.settings.threads.value_or(0));
   const std::filesystem::path folder = options.output;
   simulate::Recording recording;
   {
@@ -49,21 +47,28 @@ void simulate_walk(const SimulateOptions& options) {
 
 /// A number with its default shown; its range is checked by the simulator, which knows the scene.
 template <typename T>
-void add(CLI::App& app, const char* group, const char* name, T& target, const char* description) {
-  app.add_option(name, target, description)->capture_default_str()->group(group);
+void add(Arguments& arguments, const char* group, const char* name, T& target, const char* description) {
+  arguments.option(name, target, description).group(group);
 }
 
-void add_walk_options(CLI::App& app, simulate::Options& walk) {
+template <typename Choice>
+void add_choice(Arguments& arguments, const char* group, const char* name, Choice& target,
+                const std::vector<std::pair<std::string, Choice>>& choices, const char* description) {
+  arguments.choice(name, target, choices, description).group(group);
+}
+
+void add_walk_options(Arguments& arguments, simulate::Options& walk) {
   using simulate::Condition, simulate::Scene, simulate::Speed;
   constexpr const char *kRoute = "Route", *kWalker = "Walker", *kCamera = "Camera";
-  add_choice(app, kRoute, "--scene", walk.scene, {{"street", Scene::kStreet}, {"corridor", Scene::kCorridor}},
-             "what is walked along");
-  add(app, kRoute, "--length-m", walk.length_m, "metres of route; a longer one begins with the shorter one");
-  add(app, kRoute, "--seed", walk.seed, "the route and everything along it");
-  add_choice(app, kRoute, "--condition", walk.condition,
+  add_choice(arguments, kRoute, "--scene", walk.scene,
+             {{"street", Scene::kStreet}, {"corridor", Scene::kCorridor}}, "what is walked along");
+  add(arguments, kRoute, "--length-m", walk.length_m,
+      "metres of route; a longer one begins with the shorter one");
+  add(arguments, kRoute, "--seed", walk.seed, "the route and everything along it");
+  add_choice(arguments, kRoute, "--condition", walk.condition,
              {{"day", Condition::kDay}, {"night", Condition::kNight}, {"rain", Condition::kRain}},
              "light and weather");
-  add_choice(app, kWalker, "--speed", walk.speed,
+  add_choice(arguments, kWalker, "--speed", walk.speed,
              {{"steady", Speed::kSteady},
               {"slow-fast", Speed::kSlowFast},
               {"fast-slow", Speed::kFastSlow},
@@ -71,38 +76,37 @@ void add_walk_options(CLI::App& app, simulate::Options& walk) {
               {"stops", Speed::kStops},
               {"run", Speed::kRun}},
              "how the pace changes on the way");
-  add(app, kWalker, "--gait-seed", walk.gait_seed, "the walker, varied speeds, passers-by and sensor noise");
-  add(app, kWalker, "--lateral-m", walk.lateral_m, "metres right of the route, left if negative");
-  add(app, kWalker, "--detour-m", walk.detour_m, "metres walked in all into a side street, and back");
-  add(app, kWalker, "--start-m", walk.start_m, "metres along the route where the walk begins");
-  add(app, kWalker, "--people", walk.people, "passers-by met");
-  add(app, kCamera, "--failures", walk.failures,
+  add(arguments, kWalker, "--gait-seed", walk.gait_seed,
+      "the walker, varied speeds, passers-by and sensor noise");
+  add(arguments, kWalker, "--lateral-m", walk.lateral_m, "metres right of the route, left if negative");
+  add(arguments, kWalker, "--detour-m", walk.detour_m, "metres walked in all into a side street, and back");
+  add(arguments, kWalker, "--start-m", walk.start_m, "metres along the route where the walk begins");
+  add(arguments, kWalker, "--people", walk.people, "passers-by met");
+  add(arguments, kCamera, "--failures", walk.failures,
       "stretches, spread evenly, in which the camera tells nothing of its motion: by turns black, out of "
       "focus, "
       "turned aside and back, before a blank wall [SSS Fig. 9]");
-  add(app, kCamera, "--failure-s", walk.failure_s, "seconds that each lasts");
-  add(app, kCamera, "--fov-deg", walk.fov_deg, "degrees from left to right [PVO 5.3]");
-  add(app, kCamera, "--frame-rate-hz", walk.frame_rate_hz, "frames per second [PVO 5.1]");
-  add(app, kCamera, "--width", walk.size.width, "pixels [PVO 5.1]");
-  add(app, kCamera, "--height", walk.size.height, "pixels [PVO 5.1]");
+  add(arguments, kCamera, "--failure-s", walk.failure_s, "seconds that each lasts");
+  add(arguments, kCamera, "--fov-deg", walk.fov_deg, "degrees from left to right [PVO 5.3]");
+  add(arguments, kCamera, "--frame-rate-hz", walk.frame_rate_hz, "frames per second [PVO 5.1]");
+  add(arguments, kCamera, "--width", walk.size.width, "pixels [PVO 5.1]");
+  add(arguments, kCamera, "--height", walk.size.height, "pixels [PVO 5.1]");
 }
 
 }  // namespace
 
-Command add_simulate(CLI::App& root) {
+std::function<void()> declare_simulate(Arguments& arguments) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* app = root.add_subcommand("simulate", "draw the video of a walk, and its truth at every frame");
-  app->add_option("-o,--output", options->output, "folder for walk.mp4 and truth.csv")->required();
-  add_walk_options(*app, options->walk);
-  add_general_options(*app, options->settings);
-  add_force_option(*app, options->common);
-  add_json_option(*app, options->common);
-  app->footer(
+  arguments.option("-o,--output", options->output, "folder for walk.mp4 and truth.csv").required();
+  add_walk_options(arguments, options->walk);
+  arguments.settings(options->settings, {place::SettingGroup::kGeneral});
+  arguments.common(options->common);
+  arguments.footer(
       "Two walks of one --scene and --seed are along the same route. Equal options give equal bytes.\n"
       "Examples:\n"
       "  retrace simulate --speed slow-fast -o day\n"
       "  retrace simulate --condition night --speed fast-slow --gait-seed 2 --lateral-m 0.25 -o night");
-  return {app, [options] { simulate_walk(*options); }};
+  return [options] { simulate_walk(*options); };
 }
 
 }  // namespace retrace

@@ -2,7 +2,7 @@
 #include "report/heat_picture.hpp"
 #include "report/sweep_report.hpp"
 #include "run_directory.hpp"
-#include "settings.hpp"
+#include "settings_file.hpp"
 #include "sweep_grid.hpp"
 #include "sweep_run.hpp"
 #include "truth_options.hpp"
@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <place/resolve.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/io/atomic_file.hpp>
@@ -42,14 +43,13 @@ std::vector<Axis> axes_of(const SweepOptions& options) {
 
 /// What a sweep is of; another one does not go into the same folder.
 std::string description(const SweepOptions& options, const std::vector<Axis>& axes) {
-  std::string text = fmt::format(
-      "# Sweep of {} on {}\n# truth: {} {} {}, tolerance {} {}\n# varied:", options.query, options.reference,
-      options.truth.pairs, options.truth.query_truth, options.truth.reference_truth,
-      options.truth.tolerance_m.value_or(options.truth.tolerance_frames.value_or(0)),
-      options.truth.tolerance_m ? "m" : "reference frames");
+  std::string text =
+      fmt::format("# Sweep of {} on {}\n# truth: {} {} {}, tolerance {}\n# varied:", options.query,
+                  options.reference, options.truth.pairs, options.truth.query_truth,
+                  options.truth.reference_truth, tolerance_text(options.truth.tolerance));
   for (const Axis& axis : axes) text += " " + axis.setting;
-  Settings settings = options.settings;
-  settings.threads = 0;  // makes no difference
+  place::Settings settings = options.settings;
+  settings.threads.reset();  // makes no difference
   return text + "\n" + to_toml(settings);
 }
 
@@ -115,59 +115,63 @@ void print(const SweepOptions& options, const std::vector<Axis>& axes, const Swe
   fmt::print("{} cells; see {}\n", results.size(), (fs::path(options.output) / "report.html").string());
 }
 
-void sweep(const CLI::App& app, const SweepOptions& options) {
-  vo::set_thread_count(options.settings.threads);
-  const std::vector<Axis> axes = axes_of(options);
+/// Every cell's settings must be in range and go together, and every setting have an effect in some cell.
+void check_settings(const SweepOptions& options, const std::vector<Axis>& axes) {
+  place::Settings with_effect;
   for (const Cell& cell : all_cells(axes))
-    settings_at(options.settings, axes, cell);  // are they all in range?
+    with_effect = place::merged(
+        with_effect, place::resolve(settings_at(options.settings, axes, cell), {.pass_over = true}));
+  for (const place::Setting& setting : place::settings_table()) {
+    if (place::text_of(options.settings, setting) && !place::text_of(with_effect, setting))
+      throw vo::Error(std::string(setting.name), "has no effect in any cell of this sweep",
+                      "other axes, or this setting left out");
+  }
+}
+
+void sweep(const SweepOptions& options) {
+  vo::set_thread_count(options.settings.threads.value_or(0));
+  const std::vector<Axis> axes = axes_of(options);
+  check_settings(options, axes);
   const fs::path folder = options.output;
   SweepResults results = resume(folder, axes, description(options, axes), options.common.force);
-  if (!run_sweep(options, axes, results, given(app, "--every"))) {
+  if (!run_sweep(options, axes, results)) {
     throw vo::Error(options.output, "the sweep was stopped",
                     "the same command again, which goes on from here");
   }
-  const std::string tolerance = options.truth.tolerance_m
-                                    ? fmt::format("{:g} metres", *options.truth.tolerance_m)
-                                    : fmt::format("{:g} reference frames", *options.truth.tolerance_frames);
   vo::write_file(folder / "report.html",
                  sweep_report(axes, results, fmt::format("{} on {}", options.query, options.reference),
-                              {{"Cells", std::to_string(results.size())}, {"Right is within", tolerance}}));
+                              {{"Cells", std::to_string(results.size())},
+                               {"Right is within", tolerance_text(options.truth.tolerance)}}));
   const std::vector<std::uint8_t> png = heat_picture(heat_tables(axes, results));
   vo::write_file(folder / "heat_map.png", {reinterpret_cast<const char*>(png.data()), png.size()});
   print(options, axes, results);
 }
 
-/// Replaces a setting of one value by a list of them.
-void add_list(CLI::App& app, const std::string& name, std::vector<std::string>& values,
-              const std::string& description) {
-  if (CLI::Option* single = app.get_option_no_throw(name)) app.remove_option(single);
-  app.add_option(name, values, description)->delimiter(',')->capture_default_str()->group("Swept");
-}
-
 }  // namespace
 
-Command add_sweep(CLI::App& root) {
+std::function<void()> declare_sweep(Arguments& arguments) {
   auto options = std::make_shared<SweepOptions>();
-  CLI::App* app =
-      root.add_subcommand("sweep", "which settings find a walk on another best, by precision and recall");
-  app->add_option("query", options->query, "walk to be found: video file or folder of images")->required();
-  app->add_option("--reference", options->reference, "walk to be found on")->required();
-  app->add_option("-o,--output", options->output, "folder for the results; a sweep that was stopped goes on")
-      ->required();
-  add_truth_options(*app, options->truth);
-  add_all_options(*app, options->settings);
-  add_list(*app, "--motion", options->motions, "sad, steps, hybrid, vo, none: what walks are resampled by");
-  add_list(*app, "--sequence-length", options->lengths, "keyframes on a line [SSS 4.2]");
-  add_list(*app, "--search-range-rad", options->ranges, "radians either side of pi/4 [SSS Fig. 8]");
-  app->add_option("--vary", options->vary,
-                  "NAME=a,b,c: any further setting of sampling or search; may be repeated")
-      ->group("Swept")
-      ->take_all();
-  for (const char* name : {"--compat", "--sequence-length-m"}) app->remove_option(app->get_option(name));
-  add_config_option(*app, options->common);
-  add_force_option(*app, options->common);
-  add_json_option(*app, options->common);
-  app->footer(
+  arguments.positional("query", options->query, "walk to be found: video file or folder of images");
+  arguments.option("--reference", options->reference, "walk to be found on").required();
+  arguments.option("-o,--output", options->output, "folder for the results; a sweep that was stopped goes on")
+      .required();
+  declare_truth(arguments, options->truth);
+  const auto list = [&](const char* flag, std::vector<std::string>& values, const char* description) {
+    arguments.option(flag, values, description).comma_separated().group("Swept");
+  };
+  list("--motion", options->motions, "sad, steps, hybrid, vo, none: what walks are resampled by");
+  list("--sequence-length", options->lengths, "keyframes on a line [SSS 4.2]");
+  list("--search-range-rad", options->ranges, "radians either side of pi/4 [SSS Fig. 8]");
+  arguments
+      .option("--vary", options->vary,
+              "NAME=a,b,c: any further setting of sampling or search; may be repeated")
+      .group("Swept");
+  using enum place::SettingGroup;
+  arguments.settings(options->settings, {kReading, kMotion, kOdometry, kSearch, kGeneral},
+                     {"motion", "sequence-length", "search-range-rad", "compat", "sequence-length-m",
+                      "motion-file", "motion-file-start-s", "motion-file-gap-s"});
+  arguments.common(options->common);
+  arguments.footer(
       "Both walks are read once; a cost matrix is computed once for all cells that share it. With --motion "
       "none and no\n"
       "--every, every so many frames are kept that there are as many keyframes as with the first other "
@@ -177,7 +181,7 @@ Command add_sweep(CLI::App& root) {
       "    --tolerance-m 4 -o sweep\n"
       "  retrace sweep night.mp4 --reference day.mp4 --pairs pairs.csv --tolerance-frames 17 -o sweep \\\n"
       "    --motion sad,steps,none --sequence-length 5,10,20,40,80 --vary enhance=local,standardise");
-  return {app, [app, options] { sweep(*app, *options); }};
+  return [options] { sweep(*options); };
 }
 
 }  // namespace retrace

@@ -1,10 +1,7 @@
 #include "sweep_grid.hpp"
 
-#include "config_file.hpp"
-
 #include <algorithm>
 #include <array>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,27 +26,21 @@ constexpr std::array kColumns{Column{"max_f1", &CellResult::max_f1},
                               Column{"recall_at_100_precision", &CellResult::recall_at_100_precision},
                               Column{"recall_at_1", &CellResult::recall_at_1}};
 
-std::string group_of(const std::string& setting) {
-  const std::vector<SettingEntry> all = entries({});
-  const auto found = std::ranges::find(all, setting, &SettingEntry::name);
-  if (found != all.end()) return found->group;
-  std::vector<std::string> names;
-  for (const SettingEntry& entry : all) names.push_back(entry.name);
-  const std::string nearest = nearest_name(setting, names);
-  throw vo::Error(setting, "is no setting",
-                  nearest.empty() ? "a name of configs/default.toml" : nearest + "?");
+/// What may change from cell to cell, though all walks are read once: not the pictures and points kept of
+/// them, nor what makes no difference to precision and recall.
+bool can_vary(const place::Setting& setting) {
+  constexpr std::array kNotHere{"compat", "sequence-length-m", "threads", "accept-score", "correct-drift"};
+  return !setting.at_reading && std::ranges::find(kNotHere, setting.name) == kNotHere.end();
 }
 
-/// What may change from cell to cell, though all walks are read once: not the pictures and points kept of
-/// them.
-bool can_vary(const std::string& setting) {
-  static const std::set<std::string> kAfterReading{"step-length", "step-length-model", "lowpass-order",
-                                                   "lowpass-cutoff-hz", "min-step-deg"};
-  static const std::set<std::string> kNotHere{"compat", "sequence-length-m", "threads", "accept-score"};
-  if (kNotHere.contains(setting)) return false;
-  const std::string group = group_of(setting);
-  return group == "Search" || group == "Motion and sampling" || setting.starts_with("patch-") ||
-         kAfterReading.contains(setting);
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end > begin) parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
 }
 
 std::string row(const Cell& cell, const std::optional<CellResult>& result) {
@@ -66,10 +57,9 @@ Axis parse_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
   Axis axis;
   if (equals != std::string::npos) {
-    axis = {text.substr(0, equals), CLI::detail::split(text.substr(equals + 1), ',')};
+    axis = {text.substr(0, equals), split(text.substr(equals + 1))};
     axis.setting.erase(0, std::min(axis.setting.find_first_not_of('-'), axis.setting.size()));
   }
-  std::erase(axis.values, "");
   if (axis.setting.empty() || axis.values.empty())
     throw vo::Error("--vary " + text, "is no setting with values", "NAME=a,b,c");
   return axis;
@@ -90,33 +80,21 @@ std::vector<Cell> all_cells(const std::vector<Axis>& axes) {
   return cells;
 }
 
-Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const Cell& cell) {
-  Settings settings = base;
-  CLI::App app;
-  add_all_options(app, settings);
+place::Settings settings_at(const place::Settings& base, const std::vector<Axis>& axes, const Cell& cell) {
+  place::Settings settings = base;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (!can_vary(axes[i].setting))
+    const place::Setting& setting = place::setting_named(axes[i].setting);
+    if (!can_vary(setting))
       throw vo::Error("--vary " + axes[i].setting, "cannot vary", "a setting of sampling or search");
-    // The options' own checks and conversions, one setting at a time, so that a message names it.
-    try {
-      app.parse(std::vector<std::string>{fmt::format("--{}={}", axes[i].setting, cell[i])});
-    } catch (const CLI::ParseError& error) {
-      throw vo::Error(fmt::format("{}={}", axes[i].setting, cell[i]), error.what());
-    }
+    place::set(settings, setting, cell[i]);
   }
-  place::Sampling& sampling = settings.sampling.sampling;
-  if (sampling.motion == vo::MotionSource::kFile)
+  if (settings.motion == "file")
     throw vo::Error("motion=file", "cannot be swept", "a motion that both walks show themselves");
-  if (sampling.motion != vo::MotionSource::kNone) sampling.every = 1;
-  const bool metric =
-      sampling.motion == vo::MotionSource::kSteps || sampling.motion == vo::MotionSource::kHybrid;
-  if (!metric) sampling.spacing_m.reset();
-  resolve(app, settings);
   return settings;
 }
 
 bool shapes_the_matrix(const std::string& setting) {
-  return group_of(setting) != "Search" || setting == "max-shift-px";
+  return place::setting_named(setting).group != place::SettingGroup::kSearch || setting == "max-shift-px";
 }
 
 std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results) {

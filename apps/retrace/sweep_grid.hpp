@@ -1,14 +1,12 @@
 #pragma once
 
-#include "settings.hpp"
-
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <place/evaluation/evaluation.hpp>
+#include <place/settings.hpp>
 
 namespace retrace {
 
@@ -40,7 +38,7 @@ std::vector<Cell> all_cells(const std::vector<Axis>& axes);
 
 /// The settings of a cell: `base` with the axes' values in it. Throws `vo::Error` naming a setting that there
 /// is not, that is fixed once a walk is read, or that does not take its value.
-Settings settings_at(const Settings& base, const std::vector<Axis>& axes, const Cell& cell);
+place::Settings settings_at(const place::Settings& base, const std::vector<Axis>& axes, const Cell& cell);
 
 /// True if the setting changes keyframes or their descriptors, and so the cost matrix.
 bool shapes_the_matrix(const std::string& setting);

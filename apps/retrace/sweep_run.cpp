@@ -1,8 +1,6 @@
 #include "sweep_run.hpp"
 
-#include "build.hpp"
 #include "progress_bar.hpp"
-#include "route_settings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include <place/match/cost_matrix.hpp>
+#include <place/place.hpp>
+#include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/io/atomic_file.hpp>
@@ -19,7 +18,6 @@ namespace retrace {
 namespace {
 
 namespace fs = std::filesystem;
-using vo::MotionSource;
 
 constexpr const char* kReference = "reference";
 
@@ -31,28 +29,29 @@ struct Walks {
 /// Two walks cut down to keyframes, and how alike those are.
 struct Sampled {
   std::vector<std::size_t> query_frames;
-  std::vector<std::size_t> reference_frames;
+  std::vector<std::int64_t> reference_frames;
   place::CostMatrix cost;
 };
 
-/// What `retrace build` and `retrace localise` make of the walks, up to the cost matrix.
-Sampled sample(const Walks& walks, Settings settings) {
-  place::Route route = new_route(settings);
-  add_traverse(route, kReference, walks.reference, {}, settings);
-  settings.sampling.sampling.unit = route.sampling.unit;
+/// Both walks on one route, up to the cost matrix.
+Sampled sample(const Walks& walks, const place::Settings& given) {
+  place::Route route = place::new_route(given);
+  place::add(route, kReference, walks.reference, {}, given);
+  const place::Settings settings = place::resolve(given, {.route = &route.settings, .pass_over = true});
+  const place::StageOptions options = place::stage_options(settings);
+  const place::SampledWalk query = place::sample_walk(walks.query, options.sampling, &route);
   const place::Traverse& reference = route.traverses.front();
-  const place::SampledWalk query = place::sample_walk(walks.query, route, &reference, settings.sampling);
   Sampled sampled{.query_frames = query.frames, .reference_frames = {}, .cost = {}};
   for (const place::Keyframe& keyframe : reference.keyframes)
-    sampled.reference_frames.push_back(static_cast<std::size_t>(keyframe.frame));
-  sampled.cost =
-      place::cost_matrix(vo::patch_normalise(query.thumbnails, route.patch),
-                         vo::patch_normalise(reference.thumbnails, route.patch), settings.localiser.cost);
+    sampled.reference_frames.push_back(keyframe.frame);
+  const place::RouteMatchingOptions& matching = options.matching;
+  sampled.cost = place::cost_matrix(vo::patch_normalise(query.thumbnails, matching.patch),
+                                    vo::patch_normalise(reference.thumbnails, matching.patch), matching.cost);
   return sampled;
 }
 
 /// Keeps every K-th frame, such that there are about as many keyframes as with the motion of `settings`.
-int every_like(const Walks& walks, const Settings& settings) {
+int every_like(const Walks& walks, const place::Settings& settings) {
   const Sampled sampled = sample(walks, settings);
   const auto frames = static_cast<double>(walks.query.frames() + walks.reference.frames());
   const auto keyframes = static_cast<double>(sampled.query_frames.size() + sampled.reference_frames.size());
@@ -60,18 +59,17 @@ int every_like(const Walks& walks, const Settings& settings) {
 }
 
 std::optional<CellResult> run_cell(const Sampled& sampled, const place::CostMatrix& enhanced,
-                                   const Settings& settings, RunTruth truth) {
-  if (enhanced.references < static_cast<std::size_t>(settings.localiser.search.length)) return {};
-  const auto matches = place::search_sequences(enhanced, settings.localiser.search);
-  std::vector<place::ScoredQuery> queries;
-  for (std::size_t q = 0; q < matches.size(); ++q) {
-    std::optional<std::int64_t> reference;
-    if (matches[q].reference)
-      reference = static_cast<std::int64_t>(sampled.reference_frames[*matches[q].reference]);
-    queries.push_back(
-        judge(truth, static_cast<std::int64_t>(sampled.query_frames[q]), reference, matches[q].score));
+                                   const place::SequenceSearchOptions& search,
+                                   const place::GroundTruth& truth, const place::Tolerance& tolerance) {
+  if (enhanced.references < static_cast<std::size_t>(search.length)) return {};
+  std::vector<place::Match> matches;
+  for (const place::SequenceMatch& found : place::search_sequences(enhanced, search)) {
+    place::Match& match = matches.emplace_back();
+    match.query_frame = static_cast<std::int64_t>(sampled.query_frames[matches.size() - 1]);
+    match.score = found.score;
+    if (found.reference) match.place.emplace().frame = sampled.reference_frames[*found.reference];
   }
-  const place::Evaluation e = place::evaluate(queries, truth.tolerance);
+  const place::Evaluation e = place::evaluate(matches, truth, tolerance).evaluation;
   return CellResult{.query_keyframes = enhanced.queries,
                     .reference_keyframes = enhanced.references,
                     .max_f1 = e.best.f1,
@@ -87,17 +85,17 @@ std::optional<CellResult> run_cell(const Sampled& sampled, const place::CostMatr
 class Sweep {
  public:
   Sweep(const SweepOptions& options, const std::vector<Axis>& axes, SweepResults& results)
-      : options_(options), axes_(axes), results_(results), truth_(read_truth(options.truth)) {
+      : options_(options), axes_(axes), results_(results), truth_(read_truth(options.truth).places) {
     for (const Cell& cell : all_cells(axes_)) {
       if (!results_.contains(cell)) missing_.push_back(cell);
     }
   }
 
   /// Runs what is missing; false if the user stopped it.
-  bool run(bool every_given) {
+  bool run() {
     if (missing_.empty()) return true;
     read_walks();
-    if (!every_given) choose_every();
+    if (!options_.settings.every) choose_every();
     ProgressBar bar;
     // Cells of one cost matrix stand together as the axes have them only by chance, so they are sorted.
     std::ranges::stable_sort(missing_, {}, [&](const Cell& cell) { return matrix_key(cell); });
@@ -117,11 +115,19 @@ class Sweep {
   }
 
  private:
-  [[nodiscard]] Settings settings(const Cell& cell) const {
-    Settings settings = settings_at(options_.settings, axes_, cell);
-    if (settings.sampling.sampling.motion == MotionSource::kNone && every_ > 0)
-      settings.sampling.sampling.every = every_;
-    return settings;
+  /// What is given in a cell and has an effect there.
+  [[nodiscard]] place::Settings settings(const Cell& cell) const {
+    place::Settings given = settings_at(options_.settings, axes_, cell);
+    if (given.motion == "none" && every_ > 0) given.every = every_;
+    const place::Settings resolved = place::resolve(given, {.pass_over = true});
+    for (const place::Setting& setting : place::settings_table())
+      if (!place::text_of(resolved, setting)) place::reset(given, setting);
+    return given;
+  }
+
+  /// The options of a cell's stages.
+  [[nodiscard]] place::StageOptions stages(const Cell& cell) const {
+    return place::stage_options(place::resolve(settings(cell), {}));
   }
 
   /// The values in a cell that its cost matrix depends on.
@@ -143,10 +149,10 @@ class Sweep {
   }
 
   void read_walks() {
-    vo::WalkOptions walk = options_.settings.walk;
+    vo::WalkOptions walk = stages(missing_.front()).walk;
     walk.preview_width_px = 0;
     for (const Cell& cell : missing_) {  // what any of them needs
-      const vo::WalkOptions needed = settings(cell).walk;
+      const vo::WalkOptions needed = stages(cell).walk;
       walk.track_features |= needed.track_features;
       walk.visual_odometry |= needed.visual_odometry;
     }
@@ -158,8 +164,8 @@ class Sweep {
   /// Without motion, as many keyframes as the first motion gives.
   void choose_every() {
     for (const Cell& cell : all_cells(axes_)) {
-      const Settings with_motion = settings(cell);
-      if (with_motion.sampling.sampling.motion == MotionSource::kNone) continue;
+      const place::Settings with_motion = settings(cell);
+      if (with_motion.motion == "none") continue;
       if (std::ranges::find(options_.motions, "none") != options_.motions.end() &&
           std::ranges::find(axes_, "every", &Axis::setting) == axes_.end())
         every_ = every_like(walks_, with_motion);
@@ -183,7 +189,7 @@ class Sweep {
     place::CostMatrix enhanced;
     if (sampled) {
       enhanced = sampled->cost;
-      place::enhance_contrast(enhanced, settings(missing_[begin]).localiser.enhancement);
+      place::enhance_contrast(enhanced, stages(missing_[begin]).matching.enhancement);
     }
     const std::size_t together = 4 * static_cast<std::size_t>(vo::thread_count());
     for (; begin < end; begin += together) {
@@ -191,7 +197,8 @@ class Sweep {
       std::vector<std::optional<CellResult>> found(count);
       if (sampled) {
         vo::parallel_for(count, [&](std::size_t i) {
-          found[i] = run_cell(*sampled, enhanced, settings(missing_[begin + i]), truth_);
+          found[i] = run_cell(*sampled, enhanced, stages(missing_[begin + i]).matching.search, truth_,
+                              options_.truth.tolerance);
         });
       }
       for (std::size_t i = 0; i < count; ++i) results_[missing_[begin + i]] = found[i];
@@ -207,7 +214,7 @@ class Sweep {
   const SweepOptions& options_;
   const std::vector<Axis>& axes_;
   SweepResults& results_;
-  RunTruth truth_;
+  place::GroundTruth truth_;
   std::vector<Cell> missing_;
   Walks walks_;
   int every_ = 0;  ///< frames between keyframes without motion; 0: as the settings say
@@ -215,9 +222,8 @@ class Sweep {
 
 }  // namespace
 
-bool run_sweep(const SweepOptions& options, const std::vector<Axis>& axes, SweepResults& results,
-               bool every_given) {
-  return Sweep(options, axes, results).run(every_given);
+bool run_sweep(const SweepOptions& options, const std::vector<Axis>& axes, SweepResults& results) {
+  return Sweep(options, axes, results).run();
 }
 
 }  // namespace retrace

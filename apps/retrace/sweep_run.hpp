@@ -1,7 +1,6 @@
 #pragma once
 
 #include "command.hpp"
-#include "settings.hpp"
 #include "sweep_grid.hpp"
 #include "truth_options.hpp"
 
@@ -11,7 +10,7 @@
 namespace retrace {
 
 struct SweepOptions {
-  Settings settings;
+  place::Settings settings;
   CommonOptions common;
   TruthOptions truth;
   std::string query;
@@ -24,10 +23,9 @@ struct SweepOptions {
 };
 
 /// Runs the cells that `results` has not, and adds them; sweep.csv is renewed after every few, so that a
-/// sweep that is killed goes on from there. `every_given`: the user says how many frames lie between
-/// keyframes without motion; otherwise there are as many keyframes as with the first motion. False if the
-/// user stopped it. Throws `vo::Error` for walks and truth that cannot be read.
-bool run_sweep(const SweepOptions& options, const std::vector<Axis>& axes, SweepResults& results,
-               bool every_given);
+/// sweep that is killed goes on from there. Without motion, and with `every` neither given nor varied, as
+/// many keyframes are kept as with the first motion. False if the user stopped it. Throws `vo::Error` for
+/// walks and truth that cannot be read, or a setting that has an effect in no cell.
+bool run_sweep(const SweepOptions& options, const std::vector<Axis>& axes, SweepResults& results);
 
 }  // namespace retrace

@@ -43,21 +43,26 @@ inline place::Survey survey_of(const KnownWalk& known) {
   return survey;
 }
 
+inline constexpr double kSamplingN = 6;  ///< of SSS Eq. 4
+
 /// Adds a walk to a route, the first one giving the sampling unit.
 inline void add_traverse(place::Route& route, const std::string& name, const KnownWalk& known,
                          place::WalkSamplingOptions options = {}, bool surveyed = true) {
-  options.sampling = route.sampling;
-  const place::Traverse* first = route.traverses.empty() ? nullptr : &route.traverses.front();
-  const auto sampled = place::sample_walk(known.walk, route, first, options);
-  route.sampling.unit = sampled.unit;
+  options.n = kSamplingN;
+  route.settings.sampling_n = kSamplingN;
+  const auto sampled = place::sample_walk(known.walk, options, &route);
+  if (route.traverses.empty()) {
+    route.unit = sampled.unit;
+    route.metric = sampled.metric;
+  }
   route.traverses.push_back(place::make_traverse(name, known.walk, sampled,
                                                  surveyed ? std::optional(survey_of(known)) : std::nullopt));
 }
 
 inline place::SampledWalk sample_query(const KnownWalk& known, const place::Route& route) {
   place::WalkSamplingOptions options;
-  options.sampling = route.sampling;
-  return place::sample_walk(known.walk, route, &route.traverses.front(), options);
+  options.n = kSamplingN;
+  return place::sample_walk(known.walk, options, &route);
 }
 
 /// Mean pixels between neighbouring keyframes of a traverse.

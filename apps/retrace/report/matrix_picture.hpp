@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include <place/localiser.hpp>
+#include <place/match/cost_matrix.hpp>
+#include <place/match/match.hpp>
 
 namespace retrace {
 

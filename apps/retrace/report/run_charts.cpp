@@ -139,7 +139,7 @@ std::optional<Chart> score_chart(const RunView& run) {
   const auto shown = [&](bool accepted) {
     return match_series(
         run, accepted ? "accepted" : "refused",
-        [&](std::size_t q) { return run.matches[q].reference_frame && run.matches[q].accepted == accepted; },
+        [&](std::size_t q) { return run.matches[q].place && run.matches[q].accepted == accepted; },
         [&](std::size_t q) { return run.matches[q].score; });
   };
   Chart chart{.title = "score of each match along the walk",
@@ -216,7 +216,7 @@ std::optional<Chart> spacing_chart(const RunView& run) {
               .size = "wide"};
   std::vector<double> along_m;
   const auto& query_m = run.truth->truth.query_distance_m;
-  for (const MatchRow& match : run.matches)
+  for (const place::Match& match : run.matches)
     along_m.push_back(query_m[static_cast<std::size_t>(match.query_frame)]);
   chart.series.push_back(walk_style(
       {.name = "query", .x = upto(along_m.size() - 1), .y = differences(along_m)}, chart.series.size()));

@@ -86,14 +86,13 @@ ordered_json pairs_json(const place::Route& route, const vo::Walk& walk,
 
 }  // namespace
 
-ordered_json run_data(const place::Route& route, const vo::Walk& walk, const place::SampledWalk& sampled,
-                      const std::vector<place::Match>& matches,
-                      std::span<const place::SearchMatrices> matrices) {
-  ordered_json json{{"motion", vo::name_of(route.sampling.motion)},
-                    {"unit", sampled.unit},
-                    {"query", query_json(walk, sampled)},
+ordered_json run_data(const place::Route& route, const vo::Walk& walk, const place::Run& run,
+                      const std::vector<KeptMatrix>& matrices) {
+  ordered_json json{{"motion", run.settings.motion.value_or("none")},
+                    {"unit", run.sampled.unit},
+                    {"query", query_json(walk, run.sampled)},
                     {"traverses", ordered_json::array()},
-                    {"pairs", pairs_json(route, walk, matches)}};
+                    {"pairs", pairs_json(route, walk, run.matches)}};
   for (std::size_t i = 0; i < route.traverses.size(); ++i) {
     ordered_json traverse = traverse_json(route.traverses[i]);
     if (i < matrices.size() && !matrices[i].enhanced.values.empty()) {

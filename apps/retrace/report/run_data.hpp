@@ -1,5 +1,7 @@
 #pragma once
 
+#include "report/kept_matrices.hpp"
+
 #include <filesystem>
 #include <span>
 #include <string>
@@ -7,7 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <place/localiser.hpp>
+#include <place/place.hpp>
 #include <vo/odometry.hpp>
 
 namespace retrace {
@@ -22,9 +24,8 @@ inline constexpr const char* kRunDataFile = "report_data.json";
 ///
 /// `reference`: the route, with previews if pairs are to be shown; `matrices`: one for each traverse, or
 /// none. They may be shrunk: a picture is stretched over all keyframes.
-nlohmann::ordered_json run_data(const place::Route& route, const vo::Walk& walk,
-                                const place::SampledWalk& sampled, const std::vector<place::Match>& matches,
-                                std::span<const place::SearchMatrices> matrices);
+nlohmann::ordered_json run_data(const place::Route& route, const vo::Walk& walk, const place::Run& run,
+                                const std::vector<KeptMatrix>& matrices);
 
 /// Reads the file; an empty object if it is not there or not whole, as in a run of an older version.
 nlohmann::ordered_json read_run_data(const std::filesystem::path& folder);

@@ -33,10 +33,10 @@ std::vector<MatrixFigure> matrix_figures(const RunView& run) {
     const std::vector<double> keyframe = upto(frames.size());
     ordered_json matches = ordered_json::array(), truth = ordered_json::array();
     for (std::size_t q = 0; q < run.matches.size(); ++q) {
-      const MatchRow& match = run.matches[q];
+      const place::Match& match = run.matches[q];
       ordered_json reference;
-      if (match.reference_frame && match.traverse == run.traverses[i].name)
-        reference = std::lround(interpolated(frames, keyframe, static_cast<double>(*match.reference_frame)));
+      if (match.place && match.place->traverse == run.traverses[i].name)
+        reference = std::lround(interpolated(frames, keyframe, static_cast<double>(match.place->frame)));
       matches.push_back({{"query", q},
                          {"frame", match.query_frame},
                          {"time_s", rounded(match.query_time_s)},
@@ -64,13 +64,13 @@ std::optional<std::string> strip_json(const RunView& run) {
   if (run.truth != nullptr && run.truth->unit == place::ErrorUnit::kFrames) spec["unit"] = "frames";
   for (const ordered_json& stored : run.data["pairs"]) {
     const auto q = stored["keyframe"].get<std::size_t>();
-    if (q >= run.matches.size() || !run.matches[q].reference_frame) continue;
-    const MatchRow& match = run.matches[q];
+    if (q >= run.matches.size() || !run.matches[q].place) continue;
+    const place::Match& match = run.matches[q];
     ordered_json pair = stored;
     pair["query_frame"] = match.query_frame;
     pair["time_s"] = rounded(match.query_time_s);
-    pair["reference_frame"] = *match.reference_frame;
-    pair["reference_time_s"] = rounded(match.reference_time_s);
+    pair["reference_frame"] = match.place->frame;
+    pair["reference_time_s"] = rounded(match.place->time_s);
     pair["score"] = rounded(match.score);
     pair["accepted"] = match.accepted;
     if (run.truth != nullptr && run.truth->errors[q].error) {

@@ -76,11 +76,9 @@ void put_operating_points(Page& page, const RunTruth& truth) {
 }  // namespace
 
 const std::string_view kCounting =
-    "Every query keyframe with a true place counts in recall's denominator, matched or not. Accepted and "
-    "within tolerance "
-    "is a true positive; accepted and not is a false positive, also where the query has no true place; the "
-    "rest with a "
-    "true place are false negatives. Every distinct score is a threshold.";
+    "TP: accepted and within tolerance of the true place. FP: accepted and not, also where the query has no "
+    "true place. FN: with a true place and no TP, whether refused, unmatched or wrong. Precision = TP / (TP + "
+    "FP), recall = TP / (TP + FN). Every distinct score is a threshold.";
 
 std::string name_of(place::ErrorUnit unit) {
   return unit == place::ErrorUnit::kMetres ? "metres" : "reference frames";

@@ -8,21 +8,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <place/evaluation/evaluation.hpp>
-#include <place/evaluation/ground_truth.hpp>
+#include <place/evaluation/run_evaluation.hpp>
 #include <vo/base/trajectory.hpp>
 
 namespace retrace {
 
 /// What is known of a run once it was held against the truth.
-struct RunTruth {
+struct RunTruth : place::RunEvaluation {
   place::GroundTruth truth;
   vo::Trajectory poses;  ///< the query's, where its truth has them
-  double tolerance = 0;
-  place::ErrorUnit unit = place::ErrorUnit::kMetres;
-  std::vector<place::PlaceError> errors;  ///< one for each match
-  place::Evaluation evaluation;
-  place::OperatingPoint accepted;  ///< the run's own acceptance
 };
 
 /// "metres" or "reference frames".

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <place/match/match_io.hpp>
+
 namespace retrace {
 namespace {
 
@@ -56,7 +58,7 @@ std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
 
 RunView read_run(const std::filesystem::path& folder, const ordered_json& data, const RunTruth* truth) {
   RunView run{.folder = folder,
-              .matches = read_matches(folder / "matches.csv"),
+              .matches = place::read_matches(folder / "matches.csv"),
               .unit = data.value("unit", 0.0),
               .counts = read_counts(folder / "summary.json"),
               .data = data,

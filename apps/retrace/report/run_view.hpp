@@ -1,6 +1,5 @@
 #pragma once
 
-#include "matches_file.hpp"
 #include "report/run_report.hpp"
 
 #include <cstddef>
@@ -10,6 +9,8 @@
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
+
+#include <place/match/match.hpp>
 
 namespace retrace {
 
@@ -35,7 +36,7 @@ struct RunCounts {
 /// What the figures of a run's report are drawn from.
 struct RunView {
   std::filesystem::path folder;
-  std::vector<MatchRow> matches;
+  std::vector<place::Match> matches;
   double unit = 0;  ///< displacement between keyframes; 0 where it is not known
   std::optional<WalkColumns> query;
   std::vector<WalkColumns> traverses;

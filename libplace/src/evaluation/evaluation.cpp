@@ -16,19 +16,17 @@ bool is_right(const ScoredQuery& query, double tolerance) {
 struct Counts {
   std::size_t accepted = 0;
   std::size_t right = 0;
-  std::size_t accepted_with_truth = 0;
 
   void accept(const ScoredQuery& query, double tolerance) {
     ++accepted;
     right += is_right(query, tolerance) ? 1 : 0;
-    accepted_with_truth += query.has_truth ? 1 : 0;
   }
 
   [[nodiscard]] OperatingPoint at(double threshold, std::size_t with_truth) const {
     OperatingPoint point{.threshold = threshold,
                          .true_positives = right,
                          .false_positives = accepted - right,
-                         .false_negatives = with_truth - accepted_with_truth};
+                         .false_negatives = with_truth - right};
     const auto tp = static_cast<double>(right);
     point.precision = accepted > 0 ? tp / static_cast<double>(accepted) : 1;
     point.recall = with_truth > 0 ? tp / static_cast<double>(with_truth) : 0;

@@ -10,7 +10,8 @@
 namespace place {
 namespace {
 
-constexpr double kLargestRangeRad = 0.78;  // slope 185
+constexpr double kLargestRangeRad = 0.8;    // SSS 5.1
+constexpr double kSteepestRangeRad = 0.78;  // slope 185; at pi/4 a line would stand upright
 constexpr double kLargestSlope = 200;
 
 std::vector<double> slopes_of(const SequenceSearchOptions& options) {
@@ -20,9 +21,10 @@ std::vector<double> slopes_of(const SequenceSearchOptions& options) {
     for (int i = 0; i <= steps; ++i)
       slopes.push_back(*options.v_min + static_cast<double>(i) / options.length);
   } else {
+    const double range_rad = std::min(options.search_range_rad, kSteepestRangeRad);
     for (int i = 0; i < options.slopes; ++i) {
       const double share = options.slopes == 1 ? 0 : 2.0 * i / (options.slopes - 1) - 1;
-      slopes.push_back(std::tan(std::numbers::pi / 4 + share * options.search_range_rad));
+      slopes.push_back(std::tan(std::numbers::pi / 4 + share * range_rad));
     }
   }
   return slopes;

@@ -23,26 +23,20 @@ using sqlite::Statement;
 constexpr std::int64_t kApplicationId = 0x72747263;  // "rtrc", in the header of the file
 constexpr std::size_t kChunkThumbnails = 256;
 
+// What walks take over lies as key and value, so that a new setting changes no table.
 constexpr const char* kSchema = R"sql(
 CREATE TABLE route(
-  software_version TEXT NOT NULL,
-  thumbnail_width INTEGER NOT NULL, thumbnail_height INTEGER NOT NULL,
-  patch_px INTEGER NOT NULL, patch_shape TEXT NOT NULL, patch_min_deviation REAL NOT NULL,
-  patch_min_contrast REAL NOT NULL,
-  motion TEXT NOT NULL, every INTEGER NOT NULL, sampling_n REAL NOT NULL, sampling_unit REAL NOT NULL,
-  traverses INTEGER NOT NULL, metric INTEGER NOT NULL);
+  software_version TEXT NOT NULL, unit REAL NOT NULL, metric INTEGER NOT NULL, traverses INTEGER NOT NULL,
+  latitude_deg REAL, longitude_deg REAL);
+CREATE TABLE route_setting(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE traverse(
-  id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, source TEXT NOT NULL,
-  frames INTEGER NOT NULL, duration_s REAL NOT NULL, frame_width_px INTEGER NOT NULL, frame_height_px INTEGER NOT NULL,
-  pose_source TEXT NOT NULL, keyframes INTEGER NOT NULL, motion_knots INTEGER NOT NULL,
-  surveyed INTEGER NOT NULL);
-CREATE TABLE geographic_origin(latitude_deg REAL NOT NULL, longitude_deg REAL NOT NULL);
+  id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, source TEXT NOT NULL, frames INTEGER NOT NULL,
+  duration_s REAL NOT NULL, frame_width_px INTEGER NOT NULL, frame_height_px INTEGER NOT NULL,
+  pose_source TEXT NOT NULL, surveyed INTEGER NOT NULL, keyframes INTEGER NOT NULL,
+  thumbnail_width INTEGER NOT NULL, thumbnail_height INTEGER NOT NULL);
 CREATE TABLE setting(
   traverse INTEGER NOT NULL REFERENCES traverse, name TEXT NOT NULL, value TEXT NOT NULL,
   PRIMARY KEY(traverse, name)) WITHOUT ROWID;
-CREATE TABLE motion_knot(
-  traverse INTEGER NOT NULL REFERENCES traverse, position INTEGER NOT NULL,
-  error REAL NOT NULL, separation REAL NOT NULL, PRIMARY KEY(traverse, position)) WITHOUT ROWID;
 CREATE TABLE keyframe(
   traverse INTEGER NOT NULL REFERENCES traverse, position INTEGER NOT NULL,
   frame INTEGER NOT NULL, time_s REAL NOT NULL, displacement REAL NOT NULL,
@@ -66,18 +60,6 @@ std::int64_t checksum(std::span<const std::uint8_t> bytes) {
   return std::bit_cast<std::int64_t>(hash);
 }
 
-std::optional<vo::MotionSource> motion_source(std::string_view name) {
-  using enum vo::MotionSource;
-  for (const vo::MotionSource motion : {kNone, kSad, kSteps, kVisualOdometry, kHybrid, kFile}) {
-    if (name == vo::name_of(motion)) return motion;
-  }
-  return std::nullopt;
-}
-
-std::string_view name_of(vo::PatchShape shape) {
-  return shape == vo::PatchShape::kGrid ? "grid" : "window";
-}
-
 [[noreturn]] void damaged(const std::string& path, std::string_view what) {
   throw vo::Error(path, fmt::format("is damaged: {}", what), "a whole route database; build it again");
 }
@@ -88,16 +70,30 @@ void check(const Route& route) {
     if (!names.insert(traverse.name).second)
       throw std::invalid_argument("write_route: two traverses share a name");
     if (traverse.thumbnails.size() != traverse.keyframes.size() ||
-        traverse.thumbnails.width != route.thumbnail.width ||
-        traverse.thumbnails.height != route.thumbnail.height) {
+        traverse.thumbnails.width != route.traverses.front().thumbnails.width ||
+        traverse.thumbnails.height != route.traverses.front().thumbnails.height) {
       throw std::invalid_argument(
-          "write_route: a traverse's thumbnails do not fit its keyframes or the route");
+          "write_route: a traverse's thumbnails do not fit its keyframes or the other traverses'");
     }
   }
 }
 
+/// The settings that a statement gives as name and value.
+Settings read_settings(Statement& rows, const std::string& path) {
+  Settings settings;
+  while (rows.step()) {
+    const std::string name = rows.text(), value = rows.text();
+    try {
+      set(settings, setting_named(name), value);
+    } catch (const vo::Error& error) {
+      damaged(path, fmt::format("its settings: {}", error.what()));
+    }
+  }
+  return settings;
+}
+
 void write_traverse(const Database& database, std::int64_t id, const Traverse& traverse) {
-  database.prepare("INSERT INTO traverse VALUES(?,?,?,?,?,?,?,?,?,?,?)")
+  database.prepare("INSERT INTO traverse VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(id)
       .bind(traverse.name)
       .bind(traverse.source)
@@ -106,18 +102,16 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
       .bind(std::int64_t{traverse.frame_width_px})
       .bind(std::int64_t{traverse.frame_height_px})
       .bind(traverse.pose_source)
-      .bind(static_cast<std::int64_t>(traverse.keyframes.size()))
-      .bind(static_cast<std::int64_t>(traverse.motion_model.error.size()))
       .bind(std::int64_t{traverse.surveyed ? 1 : 0})
+      .bind(static_cast<std::int64_t>(traverse.keyframes.size()))
+      .bind(std::int64_t{traverse.thumbnails.width})
+      .bind(std::int64_t{traverse.thumbnails.height})
       .execute();
 
-  Statement setting = database.prepare("INSERT INTO setting VALUES(?,?,?)");
-  for (const auto& [name, value] : traverse.settings) setting.bind(id).bind(name).bind(value).execute();
-
-  Statement knot = database.prepare("INSERT INTO motion_knot VALUES(?,?,?,?)");
-  for (std::size_t i = 0; i < traverse.motion_model.error.size(); ++i) {
-    knot.bind(id).bind(static_cast<std::int64_t>(i));
-    knot.bind(traverse.motion_model.error[i]).bind(traverse.motion_model.separation[i]).execute();
+  Statement row = database.prepare("INSERT INTO setting VALUES(?,?,?)");
+  for (const Setting& setting : settings_table()) {
+    const std::optional<std::string> value = text_of(traverse.settings, setting);
+    if (value) row.bind(id).bind(setting.name).bind(*value).execute();
   }
 
   Statement keyframe = database.prepare("INSERT INTO keyframe VALUES(?,?,?,?,?,?,?,?,?)");
@@ -142,12 +136,11 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
   }
 }
 
-Traverse read_traverse(const Database& database, const std::string& path, std::int64_t id, const Route& route,
+Traverse read_traverse(const Database& database, const std::string& path, std::int64_t id,
                        const RouteReadOptions& options) {
   Statement row = database.prepare(
-      "SELECT name, source, frames, duration_s, frame_width_px, frame_height_px, pose_source, keyframes, "
-      "motion_knots "
-      "FROM traverse WHERE id = ?");
+      "SELECT name, source, frames, duration_s, frame_width_px, frame_height_px, pose_source, surveyed, "
+      "keyframes, thumbnail_width, thumbnail_height FROM traverse WHERE id = ?");
   if (!row.bind(id).step()) damaged(path, fmt::format("traverse {} is missing", id));
   Traverse traverse;
   traverse.name = row.text();
@@ -157,25 +150,15 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   traverse.frame_width_px = static_cast<int>(row.integer());
   traverse.frame_height_px = static_cast<int>(row.integer());
   traverse.pose_source = row.text();
+  traverse.surveyed = row.integer() != 0;
   const std::int64_t keyframes = row.integer();
-  const std::int64_t knots = row.integer();
+  const std::int64_t width = row.integer(), height = row.integer();
+  constexpr std::int64_t kLargestSide = 1024;
+  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
+    damaged(path, "the thumbnail size is no size");
 
-  Statement setting = database.prepare("SELECT name, value FROM setting WHERE traverse = ? ORDER BY name");
-  setting.bind(id);
-  while (setting.step()) {
-    std::string name = setting.text();
-    traverse.settings[std::move(name)] = setting.text();
-  }
-
-  Statement knot =
-      database.prepare("SELECT error, separation FROM motion_knot WHERE traverse = ? ORDER BY position");
-  knot.bind(id);
-  while (knot.step()) {
-    traverse.motion_model.error.push_back(knot.real());
-    traverse.motion_model.separation.push_back(knot.real());
-  }
-  if (static_cast<std::int64_t>(traverse.motion_model.error.size()) != knots)
-    damaged(path, "motion knots are missing");
+  Statement settings = database.prepare("SELECT name, value FROM setting WHERE traverse = ? ORDER BY name");
+  traverse.settings = read_settings(settings.bind(id), path);
 
   Statement keyframe = database.prepare(
       "SELECT frame, time_s, displacement, distance_m, x_m, y_m, heading_rad FROM keyframe WHERE traverse = "
@@ -209,7 +192,7 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   }
 
   traverse.thumbnails =
-      vo::make_image_stack(route.thumbnail.width, route.thumbnail.height, traverse.keyframes.size());
+      vo::make_image_stack(static_cast<int>(width), static_cast<int>(height), traverse.keyframes.size());
   std::span<std::uint8_t> missing = traverse.thumbnails.pixels;
   Statement chunk =
       database.prepare("SELECT checksum, pixels FROM thumbnail_chunk WHERE traverse = ? ORDER BY first");
@@ -226,22 +209,14 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   return traverse;
 }
 
-/// What files of schema 1 have not.
-void read_additions_of_schema_2(const Database& database, Route& route) {
-  Statement metric = database.prepare("SELECT metric FROM route");
-  if (metric.step()) route.sampling.metric = metric.integer() != 0;
-  Statement surveyed = database.prepare("SELECT surveyed FROM traverse ORDER BY id");
-  for (Traverse& traverse : route.traverses) {
-    if (surveyed.step()) traverse.surveyed = surveyed.integer() != 0;
-  }
-  Statement origin = database.prepare("SELECT latitude_deg, longitude_deg FROM geographic_origin");
-  if (!origin.step()) return;
-  route.origin.emplace();
-  route.origin->latitude_deg = origin.real();
-  route.origin->longitude_deg = origin.real();
-}
-
 }  // namespace
+
+bool has_poses(const Route& route) {
+  return std::ranges::any_of(route.traverses, [](const Traverse& traverse) {
+    return std::ranges::any_of(traverse.keyframes,
+                               [](const Keyframe& keyframe) { return keyframe.pose.has_value(); });
+  });
+}
 
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options) {
   const std::string shown = path.string();
@@ -257,9 +232,10 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   Statement version = database.prepare("PRAGMA user_version");
   version.step();
   const std::int64_t schema = version.integer();
-  if (schema > kRouteSchemaVersion) {
-    throw vo::Error(shown, fmt::format("has schema version {}, written by a newer retrace", schema),
-                    fmt::format("schema version {} or older; update retrace", kRouteSchemaVersion));
+  if (schema != kRouteSchemaVersion) {
+    throw vo::Error(shown,
+                    fmt::format("has schema version {}, written by another version of retrace", schema),
+                    fmt::format("schema version {}; build the route again", kRouteSchemaVersion));
   }
 
   // SQLite fills a last page that is cut short with zeros.
@@ -269,33 +245,19 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   }
 
   Statement row = database.prepare(
-      "SELECT software_version, thumbnail_width, thumbnail_height, patch_px, patch_shape, "
-      "patch_min_deviation, patch_min_contrast, motion, "
-      "every, sampling_n, sampling_unit, traverses FROM route");
+      "SELECT software_version, unit, metric, traverses, latitude_deg, longitude_deg FROM route");
   if (!row.step()) damaged(shown, "the route's row is missing");
   Route route;
   route.software_version = row.text();
-  route.thumbnail.width = static_cast<int>(row.integer());
-  route.thumbnail.height = static_cast<int>(row.integer());
-  route.patch.patch_px = static_cast<int>(row.integer());
-  route.patch.shape =
-      row.text() == name_of(vo::PatchShape::kWindow) ? vo::PatchShape::kWindow : vo::PatchShape::kGrid;
-  route.patch.min_deviation = row.real();
-  route.patch.min_contrast = row.real();
-  const std::optional<vo::MotionSource> motion = motion_source(row.text());
-  if (!motion) damaged(shown, "its motion source is unknown");
-  route.sampling.motion = *motion;
-  route.sampling.metric = *motion == vo::MotionSource::kSteps;  // of schema 1 the only metric source
-  route.sampling.every = static_cast<int>(row.integer());
-  route.sampling.n = row.real();
-  route.sampling.unit = row.real();
-  if (route.thumbnail.width < 1 || route.thumbnail.height < 1)
-    damaged(shown, "the thumbnail size is no size");
+  route.unit = row.real();
+  route.metric = row.integer() != 0;
   const std::int64_t traverses = row.integer();
-  for (std::int64_t id = 1; id <= traverses; ++id) {
-    route.traverses.push_back(read_traverse(database, shown, id, route, options));
-  }
-  if (schema >= 2) read_additions_of_schema_2(database, route);
+  const std::optional<double> latitude_deg = row.optional_real(), longitude_deg = row.optional_real();
+  if (latitude_deg && longitude_deg) route.origin = {*latitude_deg, *longitude_deg};
+  Statement settings = database.prepare("SELECT name, value FROM route_setting ORDER BY name");
+  route.settings = read_settings(settings, shown);
+  for (std::int64_t id = 1; id <= traverses; ++id)
+    route.traverses.push_back(read_traverse(database, shown, id, options));
   return route;
 }
 
@@ -314,26 +276,18 @@ void write_route(const std::filesystem::path& path, const Route& route) {
                              kRouteSchemaVersion));
     database.run("BEGIN");
     database.run(kSchema);
-    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)")
+    database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?)")
         .bind(std::string_view(kVersion))
-        .bind(std::int64_t{route.thumbnail.width})
-        .bind(std::int64_t{route.thumbnail.height})
-        .bind(std::int64_t{route.patch.patch_px})
-        .bind(name_of(route.patch.shape))
-        .bind(route.patch.min_deviation)
-        .bind(route.patch.min_contrast)
-        .bind(vo::name_of(route.sampling.motion))
-        .bind(std::int64_t{route.sampling.every})
-        .bind(route.sampling.n)
-        .bind(route.sampling.unit)
+        .bind(route.unit)
+        .bind(std::int64_t{route.metric ? 1 : 0})
         .bind(static_cast<std::int64_t>(route.traverses.size()))
-        .bind(std::int64_t{route.sampling.metric ? 1 : 0})
+        .bind(route.origin ? std::optional(route.origin->latitude_deg) : std::nullopt)
+        .bind(route.origin ? std::optional(route.origin->longitude_deg) : std::nullopt)
         .execute();
-    if (route.origin) {
-      database.prepare("INSERT INTO geographic_origin VALUES(?,?)")
-          .bind(route.origin->latitude_deg)
-          .bind(route.origin->longitude_deg)
-          .execute();
+    Statement row = database.prepare("INSERT INTO route_setting VALUES(?,?)");
+    for (const Setting& setting : settings_table()) {
+      const std::optional<std::string> value = text_of(route.settings, setting);
+      if (value) row.bind(setting.name).bind(*value).execute();
     }
     for (std::size_t i = 0; i < route.traverses.size(); ++i) {
       write_traverse(database, static_cast<std::int64_t>(i) + 1, route.traverses[i]);

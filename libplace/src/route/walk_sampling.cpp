@@ -19,7 +19,7 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
   if (model.separation.back() >= kFewSeparations) return {};
   return {fmt::format(
       "{}: frames more than {:.0f} apart have nothing in common, so motion is told poorly; a higher frame "
-      "rate, or --motion none, may do better",
+      "rate, or motion none, may do better",
       walk.source, model.separation.back())};
 }
 
@@ -32,49 +32,58 @@ void to_mean_speed(const Traverse& reference, double duration_s, std::vector<dou
   for (double& step : displacement) step *= there / here;
 }
 
+/// The displacement between keyframes.
+double unit_of(const SampledWalk& sampled, const WalkSamplingOptions& options, const Route* route) {
+  const bool by_metres = sampled.metric && options.spacing_m;
+  if (!by_metres && !options.n)
+    throw std::invalid_argument("sample_walk: n expected, as the motion is not in metres");
+  if (route == nullptr || route->traverses.empty())
+    return by_metres ? *options.spacing_m : sampling_unit(sampled.displacement, *options.n);  // SSS Eq. 4
+  const Settings& first = route->settings;
+  if (by_metres) return options.spacing_m == first.spacing_m ? route->unit : *options.spacing_m;
+  return first.sampling_n ? route->unit / *first.sampling_n * *options.n : route->unit;  // linear in n
+}
+
+void take_keyframes(const vo::Walk& walk, std::vector<std::size_t> frames, SampledWalk& sampled) {
+  sampled.frames = std::move(frames);
+  sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+}
+
 }  // namespace
 
-SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
-                        const WalkSamplingOptions& options) {
+SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options, const Route* route) {
   SampledWalk sampled;
-  const Sampling& sampling = options.sampling;
-  if (sampling.motion == vo::MotionSource::kNone) {
-    sampled.frames = every_kth(walk.frames(), static_cast<std::size_t>(sampling.every));
-    sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  if (options.source == vo::MotionSource::kNone) {
+    take_keyframes(walk, every_kth(walk.frames(), static_cast<std::size_t>(options.every)), sampled);
     return sampled;
   }
-  vo::WalkMotionOptions motion_options = options.motion;
-  motion_options.visual.patch = route.patch;
-  vo::WalkMotion motion = vo::walk_motion(walk, sampling.motion, motion_options);
-  if (sampling.motion == vo::MotionSource::kSteps && motion.pedestrian->detection.steps.empty())
-    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another --motion");
-  if (sampling.spacing_m && !motion.metric)
+  vo::WalkMotion motion = vo::walk_motion(walk, options.source, options.motion);
+  if (options.source == vo::MotionSource::kSteps && motion.pedestrian->detection.steps.empty())
+    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another motion");
+  if (options.spacing_m && !options.n && !motion.metric)
     throw vo::Error(walk.source, "shows no steps, so its motion is not in metres",
-                    "no --spacing-m, or a walk on foot");
+                    "no spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
   if (motion.metric) sampled.trajectory = std::move(motion.trajectory);
-  if (reference != nullptr && motion.metric != route.sampling.metric)
-    to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
   if (motion.visual) {
     sampled.motion_model = std::move(motion.visual->model);
     sampled.warnings = motion_warnings(walk, sampled.motion_model);
   }
-  const double usual = motion.metric && sampling.usual_spacing_m > 0
-                           ? sampling.usual_spacing_m
-                           : sampling_unit(sampled.displacement, sampling.n);  // SSS Eq. 4
-  sampled.unit = sampling.spacing_m.value_or(sampling.unit > 0 ? sampling.unit : usual);
-  sampled.frames = resample(sampled.displacement, sampled.unit);
-  sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  const Traverse* reference =
+      route != nullptr && !route->traverses.empty() ? &route->traverses.front() : nullptr;
+  if (reference != nullptr && motion.metric != route->metric)
+    to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
+  sampled.unit = unit_of(sampled, options, route);
+  take_keyframes(walk, resample(sampled.displacement, sampled.unit), sampled);
   if (reference == nullptr || !options.tie_scale) return sampled;
 
-  sampled.scale =
-      relative_scale(vo::patch_normalise(sampled.thumbnails, route.patch),
-                     vo::patch_normalise(reference->thumbnails, route.patch),
-                     motion.metric && route.sampling.metric ? options.metric_scale : options.relative_scale);
+  const vo::PatchNormalisationOptions& patch = options.motion.visual.patch;
+  sampled.scale = relative_scale(
+      vo::patch_normalise(sampled.thumbnails, patch), vo::patch_normalise(reference->thumbnails, patch),
+      motion.metric && route->metric ? options.metric_scale : options.relative_scale);
   for (double& step : sampled.displacement) step *= sampled.scale;
-  sampled.frames = resample(sampled.displacement, sampled.unit);
-  sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  take_keyframes(walk, resample(sampled.displacement, sampled.unit), sampled);
   return sampled;
 }
 
@@ -92,7 +101,6 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
   traverse.frame_height_px = walk.frame_height_px;
   if (survey) traverse.pose_source = survey->source;
   if (survey) traverse.surveyed = survey->surveyed;
-  traverse.motion_model = sampled.motion_model;
   traverse.thumbnails = sampled.thumbnails;
   double travelled = 0;
   std::size_t next = 0;

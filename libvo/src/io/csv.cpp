@@ -1,6 +1,5 @@
-#include "vo/io/csv.hpp"
-
 #include "vo/base/error.hpp"
+#include "vo/io/csv_columns.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -31,14 +30,14 @@ std::vector<std::string> split(std::string_view line) {
   }
 }
 
-std::optional<double> parse(std::string_view cell) {
+}  // namespace
+
+std::optional<double> csv_number(std::string_view cell) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
-
-}  // namespace
 
 CsvTable CsvTable::read(const std::filesystem::path& path) {
   CsvTable table;
@@ -100,7 +99,7 @@ std::vector<std::optional<double>> CsvTable::optional_numbers(std::string_view c
   std::vector<std::optional<double>> values;
   values.reserve(cells.size());
   for (std::size_t row = 0; row < cells.size(); ++row) {
-    values.push_back(parse(cells[row]));
+    values.push_back(csv_number(cells[row]));
     if (!values.back() && !cells[row].empty()) {
       throw Error(where(row), fmt::format("{} is '{}'", column, cells[row]), "a finite number");
     }

@@ -1,5 +1,6 @@
 #include "vo/motion/walk_motion.hpp"
 
+#include "vo/base/error.hpp"
 #include "vo/gait/lowpass.hpp"
 #include "vo/motion/height_by_steps.hpp"
 
@@ -119,6 +120,21 @@ WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOp
       break;
   }
   throw std::invalid_argument("walk_motion: a source expected");
+}
+
+WalkMotion motion_with_steps(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
+  std::vector<std::string> warnings;
+  if (source == MotionSource::kHybrid) {
+    try {
+      WalkMotion motion = walk_motion(walk, source, options);
+      if (motion.pedestrian) return motion;
+    } catch (const Error& error) {
+      warnings.push_back(std::string(error.what()) + "; steps alone are used");
+    }
+  }
+  WalkMotion motion = walk_motion(walk, MotionSource::kSteps, options);
+  motion.warnings = std::move(warnings);
+  return motion;
 }
 
 std::vector<double> displacements(const WalkMotion& motion) {

@@ -18,9 +18,9 @@ struct OperatingPoint {
   double threshold = 0;
   std::size_t true_positives = 0;   ///< accepted, within tolerance of the true place
   std::size_t false_positives = 0;  ///< accepted and not, also where the query has no true place
-  std::size_t false_negatives = 0;  ///< with a true place, and not accepted
+  std::size_t false_negatives = 0;  ///< with a true place and no true positive: refused, unmatched or wrong
   double precision = 0;             ///< true positives / accepted; 1 where nothing is accepted
-  double recall = 0;                ///< true positives / queries with truth, matched or not
+  double recall = 0;                ///< TP / (TP + FN): of the queries with a true place
   double f1 = 0;                    ///< harmonic mean of both
 };
 

@@ -9,9 +9,10 @@ namespace place {
 
 /// Settings of `search_sequences`.
 struct SequenceSearchOptions {
-  int length = 10;                ///< query keyframes on a line (SeqSLAM's d_s)
-  double search_range_rad = 0.1;  ///< slopes tan(pi/4 -+ this) are searched (SSS 5.1 varies it from 0 to 0.8)
-  int slopes = 21;                ///< slopes across the range; those that give one line are searched once
+  int length = 10;  ///< query keyframes on a line (SeqSLAM's d_s)
+  /// Slopes tan(pi/4 -+ this) are searched (SSS 5.1 varies it from 0 to 0.8; more than 0.78 counts as 0.78).
+  double search_range_rad = 0.1;
+  int slopes = 21;  ///< slopes across the range; those that give one line are searched once
   std::optional<double>
       v_min;  ///< OpenSeqSLAM's form of the range: reference keyframes per query keyframe ...
   std::optional<double> v_max;  ///< ... in steps of 1 / length; both or neither, instead of the range above

@@ -1,34 +1,17 @@
 #pragma once
 
+#include "place/settings.hpp"
+
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <vo/base/pose2.hpp>
 #include <vo/image/image_stack.hpp>
-#include <vo/image/patch_normalisation.hpp>
-#include <vo/image/thumbnail.hpp>
-#include <vo/motion/motion_model.hpp>
-#include <vo/motion/motion_source.hpp>
 
 namespace place {
-
-/// How walks on a route become keyframes; the same for all of them, so that their keyframes are comparable.
-struct Sampling {
-  vo::MotionSource motion = vo::MotionSource::kSad;
-  int every = 1;                    ///< frames between keyframes, with `kNone`
-  double n = 6;                     ///< SSS Eq. 4's n, with motion
-  std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4; with metric motion
-  /// The same where `spacing_m` is not given: lines of so many keyframes find most from 0.8 to 0.9 m on
-  /// (README). 0: Eq. 4 with metric motion too.
-  double usual_spacing_m = 0.85;
-  double unit =
-      0;  ///< SSS Eq. 4's u, in the displacement's unit, learned from the first traverse; with motion
-  bool metric = false;  ///< that unit is the metre; otherwise frames at the first traverse's mean speed
-};
 
 /// A place on a traverse.
 struct Keyframe {
@@ -50,11 +33,9 @@ struct Traverse {
   int frame_height_px = 0;
   std::string pose_source;  ///< file the poses came from, without folders; empty if none
   bool surveyed = true;     ///< false: the poses are the walk's own odometry, from where it began
-  vo::MotionModel motion_model;
   std::vector<Keyframe> keyframes;
   vo::ImageStack thumbnails;  ///< one for each keyframe
-  std::map<std::string, std::string>
-      settings;  ///< every setting that shaped it, by its name on the command line
+  Settings settings;          ///< resolved, that shaped it
 };
 
 /// Where on the earth a route's poses are (0, 0): x goes east, y north.
@@ -65,17 +46,20 @@ struct GeographicOrigin {
 
 /// A reference route: any number of traverses of it, by day, by night.
 struct Route {
-  vo::ThumbnailOptions thumbnail;
-  vo::PatchNormalisationOptions patch;
-  Sampling sampling;
+  Settings settings;  ///< that walks on it take over (`kept_by_route`)
+  double unit = 0;  ///< between keyframes, in the displacement's unit (SSS Eq. 4's u, of the first traverse);
+                    ///< 0 without motion
+  bool metric = false;  ///< that unit is the metre; otherwise frames at the first traverse's mean speed
   std::vector<Traverse> traverses;
   std::optional<GeographicOrigin> origin;  ///< where the surveyed poses are geographic
   std::string software_version;            ///< of the program that wrote it
 };
 
-/// The layout of the file that this version writes. It reads all before as well: 1 had surveyed poses only,
-/// and no origin.
-inline constexpr int kRouteSchemaVersion = 2;
+/// True if any keyframe has a pose that a query could be put among.
+bool has_poses(const Route& route);
+
+/// The layout of the file; files of another layout are refused.
+inline constexpr int kRouteSchemaVersion = 3;
 
 /// What to leave in the file.
 struct RouteReadOptions {
@@ -84,13 +68,13 @@ struct RouteReadOptions {
 
 /// Reads a route database: one SQLite file, opened read-only. Thumbnails lie in chunks of 256, each with a
 /// checksum. Throws `vo::Error` naming the file if there is none, it is no route database, was written by a
-/// newer version, or is damaged (a broken page, a missing row, a thumbnail chunk that does not fit its
+/// another version, or is damaged (a broken page, a missing row, a thumbnail chunk that does not fit its
 /// checksum). O(file).
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options = {});
 
 /// Writes a route, over what is at `path`; the file is the old one or the new one at any moment. Equal routes
 /// give equal bytes. Throws `vo::Error` if it cannot be written, `std::invalid_argument` if a traverse's
-/// thumbnails do not fit its keyframes or the route's thumbnail size, or two traverses share a name.
+/// thumbnails do not fit its keyframes or the other traverses', or two traverses share a name.
 void write_route(const std::filesystem::path& path, const Route& route);
 
 }  // namespace place

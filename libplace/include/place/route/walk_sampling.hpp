@@ -16,8 +16,11 @@ namespace place {
 
 /// Settings of `sample_walk`.
 struct WalkSamplingOptions {
-  vo::WalkMotionOptions motion;  ///< its `visual.patch` is overruled by the route's
-  Sampling sampling;
+  vo::WalkMotionOptions motion;
+  vo::MotionSource source = vo::MotionSource::kSad;
+  int every = 1;                    ///< frames between keyframes, with `kNone`
+  std::optional<double> n;          ///< SSS Eq. 4's n, with motion
+  std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4, where the motion is metric
   bool tie_scale = true;  ///< bring a walk to the spacing of the route's first traverse (`relative_scale`)
   RelativeScaleOptions relative_scale;
   /// The same where both walks are in metres: by their steps, whose lengths differ by a tenth or two where
@@ -39,12 +42,15 @@ struct SampledWalk {
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
 };
 
-/// Samples a walk (SSS 3.3). With motion, the unit comes from `options.sampling.unit`, or where that is 0
-/// from this walk by Eq. 4, or in metres `usual_spacing_m`. `reference`: the route's first traverse, to tie
-/// the scale to; null for the first walk itself. Throws `vo::Error` naming the walk if it shows no motion to
-/// learn from.
-SampledWalk sample_walk(const vo::Walk& walk, const Route& route, const Traverse* reference,
-                        const WalkSamplingOptions& options);
+/// Samples a walk (SSS 3.3). With motion, keyframes are a unit of displacement apart: `spacing_m` where the
+/// motion is metric, else by Eq. 4 with `n`. A walk on a route takes the unit that the route's first traverse
+/// gave it, in the proportion in which its own `n` or `spacing_m` differs from the route's, and its scale is
+/// tied to that traverse. `route`: null, or without traverses, for a first walk.
+///
+/// Throws `vo::Error` naming the walk if it shows no motion to learn from, or no metres though only
+/// `spacing_m` says how dense keyframes are; `std::invalid_argument` if neither does.
+SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options,
+                        const Route* route = nullptr);
 
 /// What poses and distances a walk's frames have, where they were surveyed (or its odometry, without
 /// distances).

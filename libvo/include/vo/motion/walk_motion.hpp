@@ -5,6 +5,7 @@
 #include "vo/odometry.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace vo {
@@ -23,6 +24,7 @@ struct WalkMotion {
   std::optional<VisualMotion> visual;          ///< where alignment error was asked for
   std::optional<PedestrianMotion> pedestrian;  ///< where steps were asked for
   Trajectory trajectory;  ///< from (0, 0), heading 0, in that unit; empty unless headings are known
+  std::vector<std::string> warnings;  ///< what a user should know of it
 };
 
 /// Has `read_walk` keep what `walk_motion` needs for a source.
@@ -40,6 +42,11 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// `vo::Error` naming a walk that shows no motion to learn from. A walk without steps has, by `kSteps`,
 /// displacements of 0.
 WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options = {});
+
+/// The motion of a walker whose steps are wanted: by `source`, `kHybrid` or `kSteps`; by steps alone, with a
+/// warning, where the others show nothing, and without one where too few frames a second show no steps.
+/// Throws as `walk_motion` and `pedestrian_motion` do.
+WalkMotion motion_with_steps(const Walk& walk, MotionSource source, const WalkMotionOptions& options = {});
 
 /// The values alone, as the sampler takes them.
 std::vector<double> displacements(const WalkMotion& motion);

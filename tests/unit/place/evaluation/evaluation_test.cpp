@@ -50,9 +50,9 @@ TEST(Evaluate, WorkedExample) {
   expect_point(result.curve[0], 0.9, 1, 0, 5);
   expect_point(result.curve[1], 0.8, 2, 0, 4);  // an error of the tolerance is right
   expect_point(result.curve[2], 0.7, 2, 1, 4);  // accepted without a true place
-  expect_point(result.curve[3], 0.6, 2, 2, 3);
-  expect_point(result.curve[4], 0.5, 3, 2, 2);
-  expect_point(result.curve[5], 0.2, 3, 3, 1);  // the unmatched one is missed for good
+  expect_point(result.curve[3], 0.6, 2, 2, 4);  // accepted and wrong: its true place is not found
+  expect_point(result.curve[4], 0.5, 3, 2, 3);
+  expect_point(result.curve[5], 0.2, 3, 3, 3);  // the unmatched one is missed for good
   EXPECT_DOUBLE_EQ(result.curve[4].precision, 3.0 / 5);
   EXPECT_DOUBLE_EQ(result.curve[4].recall, 3.0 / 6);
   // F1 = 2 TP / (accepted + with truth): 2/7, 4/8, 4/9, 4/10, 6/11, 6/12.
@@ -74,8 +74,8 @@ TEST(Evaluate, EqualScoresAreAcceptedTogether) {
   const std::vector<ScoredQuery> queries{matched(0.5, 0), matched(0.5, 9), matched(0.5, 0), matched(0.1, 0)};
   const place::Evaluation result = place::evaluate(queries, 1);
   ASSERT_EQ(result.curve.size(), 2U);
-  expect_point(result.curve[0], 0.5, 2, 1, 1);
-  expect_point(result.curve[1], 0.1, 3, 1, 0);
+  expect_point(result.curve[0], 0.5, 2, 1, 2);
+  expect_point(result.curve[1], 0.1, 3, 1, 1);
   EXPECT_EQ(result.recall_at_100_precision, 0);
   EXPECT_DOUBLE_EQ(result.auc_pr, 2.0 / 3 * 0.5 + 3.0 / 4 * 0.25);
 }

@@ -82,7 +82,7 @@ TEST(SequenceSearchOptions, SayWhatIsWrongWithThem) {
   };
   EXPECT_TRUE(SequenceSearchOptions{}.is_valid(nullptr));
   EXPECT_THAT(reason_of({.length = 0}), HasSubstr("length is 0; at least 1"));
-  EXPECT_THAT(reason_of({.search_range_rad = 0.79}), HasSubstr("range is 0.79 rad; 0 <= range <= 0.78"));
+  EXPECT_THAT(reason_of({.search_range_rad = 0.81}), HasSubstr("range is 0.81 rad; 0 <= range <= 0.8"));
   EXPECT_THAT(reason_of({.search_range_rad = -0.1}), HasSubstr("range is -0.1"));
   EXPECT_THAT(reason_of({.search_range_rad = std::nan("")}), HasSubstr("range is nan"));
   EXPECT_THAT(reason_of({.slopes = 0}), HasSubstr("slopes is 0"));

@@ -31,8 +31,10 @@ place::Traverse example_traverse(const std::string& name, std::size_t keyframes,
   traverse.frame_width_px = 1920;
   traverse.frame_height_px = 1080;
   traverse.pose_source = "poses.tum";
-  traverse.motion_model = {.error = {0, 0.1, 1.0 / 3}, .separation = {0, 1, 2}};
-  traverse.settings = {{"--fov-deg", "64.4"}, {"--name", ""}};
+  traverse.settings.fov_deg = 64.4;
+  traverse.settings.max_speed = 1.0 / 3;
+  traverse.settings.tie_scale = false;
+  traverse.settings.motion = "none";
   for (std::size_t i = 0; i < keyframes; ++i) {
     place::Keyframe keyframe;
     keyframe.frame = static_cast<std::int64_t>(7 * i);
@@ -49,9 +51,12 @@ place::Traverse example_traverse(const std::string& name, std::size_t keyframes,
 
 place::Route example_route() {
   place::Route route;
-  route.thumbnail = {.width = 16, .height = 8};
-  route.patch = {.patch_px = 4, .shape = vo::PatchShape::kWindow, .min_deviation = 1.5, .min_contrast = 0.7};
-  route.sampling = {.motion = vo::MotionSource::kNone, .every = 3, .n = 2.5, .unit = 0.1, .metric = true};
+  route.settings.thumbnail_width = 16;
+  route.settings.patch_min_contrast = 0.7;
+  route.settings.motion = "none";
+  route.settings.every = 3;
+  route.unit = 0.1;
+  route.metric = true;
   route.traverses.push_back(example_traverse("by day", 600, 1));    // three chunks, the last one not full
   route.traverses.push_back(example_traverse("by night", 256, 2));  // one full chunk
   route.traverses.push_back(example_traverse("", 0, 3));            // no keyframe
@@ -70,8 +75,6 @@ void expect_equal(const place::Traverse& a, const place::Traverse& b) {
   EXPECT_EQ(a.frame_height_px, b.frame_height_px);
   EXPECT_EQ(a.pose_source, b.pose_source);
   EXPECT_EQ(a.surveyed, b.surveyed);
-  EXPECT_EQ(a.motion_model.error, b.motion_model.error);
-  EXPECT_EQ(a.motion_model.separation, b.motion_model.separation);
   EXPECT_EQ(a.settings, b.settings);
   EXPECT_EQ(a.thumbnails.width, b.thumbnails.width);
   EXPECT_EQ(a.thumbnails.height, b.thumbnails.height);
@@ -93,17 +96,9 @@ void expect_equal(const place::Traverse& a, const place::Traverse& b) {
 }
 
 void expect_equal(const place::Route& a, const place::Route& b) {
-  EXPECT_EQ(a.thumbnail.width, b.thumbnail.width);
-  EXPECT_EQ(a.thumbnail.height, b.thumbnail.height);
-  EXPECT_EQ(a.patch.patch_px, b.patch.patch_px);
-  EXPECT_EQ(a.patch.shape, b.patch.shape);
-  EXPECT_EQ(a.patch.min_deviation, b.patch.min_deviation);
-  EXPECT_EQ(a.patch.min_contrast, b.patch.min_contrast);
-  EXPECT_EQ(a.sampling.motion, b.sampling.motion);
-  EXPECT_EQ(a.sampling.every, b.sampling.every);
-  EXPECT_EQ(a.sampling.n, b.sampling.n);
-  EXPECT_EQ(a.sampling.unit, b.sampling.unit);
-  EXPECT_EQ(a.sampling.metric, b.sampling.metric);
+  EXPECT_EQ(a.settings, b.settings);
+  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.metric, b.metric);
   ASSERT_EQ(a.origin.has_value(), b.origin.has_value());
   if (a.origin) {
     EXPECT_EQ(a.origin->latitude_deg, b.origin->latitude_deg);
@@ -182,7 +177,7 @@ TEST(RouteDatabase, SaysWhatIsNoRouteDatabase) {
                     "empty.db: is no route database");
 }
 
-TEST(RouteDatabase, RefusesAnotherProgramsDatabaseAndANewerSchema) {
+TEST(RouteDatabase, RefusesAnotherProgramsDatabaseAndAnotherSchema) {
   const TemporaryFolder folder;
   place::write_route(folder / "r.db", example_route());
   const std::string bytes = read_file(folder / "r.db");
@@ -190,25 +185,28 @@ TEST(RouteDatabase, RefusesAnotherProgramsDatabaseAndANewerSchema) {
   std::string newer = bytes;
   newer[63] = static_cast<char>(place::kRouteSchemaVersion + 1);
   EXPECT_THROW_WITH(place::read_route(folder.write("newer.db", newer)), vo::Error,
-                    "newer.db: has schema version 3, written by a newer retrace");
+                    "newer.db: has schema version 4, written by another version of retrace; expected schema "
+                    "version 3; build the route again");
   std::string other = bytes;
   other[71] = static_cast<char>(other[71] + 1);
   EXPECT_THROW_WITH(place::read_route(folder.write("other.db", other)), vo::Error,
                     "other.db: is no route database");
 }
 
-TEST(RouteDatabase, ReadsSchemaOne) {
+TEST(RouteDatabase, RefusesSettingsThatThereAreNot) {
   const TemporaryFolder folder;
-  place::Route route = example_route();
-  place::write_route(folder / "r.db", route);
-  place::sqlite::Database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db")
-      .run(
-          "ALTER TABLE traverse DROP COLUMN surveyed; ALTER TABLE route DROP COLUMN metric; "
-          "DROP TABLE geographic_origin; PRAGMA user_version = 1;");
-  route.sampling.metric = false;       // of this motion none was
-  route.traverses[1].surveyed = true;  // all were
-  route.origin.reset();
-  expect_equal(place::read_route(folder / "r.db"), route);
+  place::write_route(folder / "r.db", example_route());
+  const place::sqlite::Database database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db");
+  database.run("INSERT INTO route_setting VALUES('sampling-m', '3')");
+  EXPECT_THROW_WITH(place::read_route(folder / "r.db"), vo::Error,
+                    "r.db: is damaged: its settings: sampling-m: is no setting");
+  database.run("UPDATE route_setting SET name = 'sampling-n', value = 'x' WHERE name = 'sampling-m'");
+  EXPECT_THROW_WITH(place::read_route(folder / "r.db"), vo::Error, "sampling-n: is 'x'; expected a number");
+}
+
+TEST(RouteDatabase, KnowsWhetherThereArePoses) {
+  EXPECT_TRUE(place::has_poses(example_route()));
+  EXPECT_FALSE(place::has_poses({}));
 }
 
 TEST(RouteDatabase, FindsTruncation) {
@@ -317,7 +315,7 @@ TEST(RouteDatabase, RefusesTraversesThatDoNotFit) {
   route.traverses[0].keyframes.pop_back();
   refused(route);
   route = example_route();
-  route.thumbnail.width = 8;
+  route.traverses[1].thumbnails.width = 8;
   refused(route);
 }
 

@@ -1,4 +1,5 @@
 #include "support/known_walk.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <place/route/walk_sampling.hpp>
+#include <vo/base/error.hpp>
 
 namespace {
 
@@ -38,8 +40,9 @@ TEST(SampleWalk, EveryKthWithoutMotion) {
   const Wall wall(kWallPx, 1);
   const auto known = steady_walk(wall, 1, 0, 100);
   place::WalkSamplingOptions options;
-  options.sampling = {.motion = vo::MotionSource::kNone, .every = 7};
-  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
+  options.source = vo::MotionSource::kNone;
+  options.every = 7;
+  const auto sampled = place::sample_walk(known.walk, options);
   ASSERT_THAT(sampled.frames, SizeIs(15));  // 0, 7, ..., 98 of 101
   for (std::size_t k = 0; k < 15; ++k) EXPECT_EQ(sampled.frames[k], 7 * k);
   EXPECT_THAT(sampled.displacement, IsEmpty());
@@ -73,16 +76,14 @@ TEST_F(WalkSamplingTest, SamplesEvenlyWhateverTheSpeed) {
 TEST(SampleWalk, TiesWalksInMetresByAPriorOfTheirOwn) {
   const Wall wall(kWallPx, 1);
   place::Route route;
-  route.sampling.motion = vo::MotionSource::kFile;
-  add_traverse(route, "by day", in_metres(steady_walk(wall, 0.5)));
-  route.sampling.metric = true;
+  place::WalkSamplingOptions options;
+  options.source = vo::MotionSource::kFile;
+  add_traverse(route, "by day", in_metres(steady_walk(wall, 0.5)), options);
+  ASSERT_TRUE(route.metric);
   // Metres that are wrong by 1.8.
   const auto query = in_metres(steady_walk(wall, 0.9));
-  place::WalkSamplingOptions options;
-  options.sampling = route.sampling;
-  const auto scale = [&] {
-    return place::sample_walk(query.walk, route, &route.traverses.front(), options).scale;
-  };
+  options.n = kSamplingN;
+  const auto scale = [&] { return place::sample_walk(query.walk, options, &route).scale; };
   EXPECT_NEAR(scale(), 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
   options.relative_scale.prior_weight = 1e6;
   EXPECT_NEAR(scale(), 1.8, 0.2);
@@ -95,14 +96,40 @@ TEST_F(WalkSamplingTest, TiesTheScaleToTheFirstTraverse) {
   // keyframe step reaches 1.8 times as far.
   const auto fast = steady_walk(wall_, 0.9);
   place::WalkSamplingOptions options;
-  options.sampling = route_.sampling;
-  const auto tied = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
+  options.n = kSamplingN;
+  const auto tied = place::sample_walk(fast.walk, options, &route_);
   EXPECT_NEAR(tied.scale, 1.8, 0.2);  // as relative_scale: half a keyframe over half a sequence, 0.1 of 1.8
   options.tie_scale = false;
-  const auto loose = place::sample_walk(fast.walk, route_, &route_.traverses.front(), options);
+  const auto loose = place::sample_walk(fast.walk, options, &route_);
   EXPECT_EQ(loose.scale, 1);
   EXPECT_LT(loose.frames.size(), tied.frames.size());
-  EXPECT_EQ(place::sample_walk(fast.walk, route_, nullptr, options).unit, route_.sampling.unit);
+  EXPECT_EQ(loose.unit, route_.unit);
+}
+
+TEST_F(WalkSamplingTest, TheUnitOfAQueryIsInProportionToItsN) {
+  const auto query = steady_walk(wall_, 0.5);
+  place::WalkSamplingOptions options;
+  options.tie_scale = false;
+  options.n = kSamplingN / 2;
+  EXPECT_EQ(place::sample_walk(query.walk, options, &route_).unit, route_.unit / 2);
+  options.n.reset();
+  EXPECT_THROW(place::sample_walk(query.walk, options, &route_), std::invalid_argument);
+  options.spacing_m = 1;
+  EXPECT_THROW_WITH(place::sample_walk(query.walk, options, &route_), vo::Error, "not in metres");
+}
+
+TEST(SampleWalk, KeyframesOfMetricMotionAreSoManyMetresApart) {
+  const Wall wall(kWallPx, 1);
+  const auto known = in_metres(steady_walk(wall, 0.5));  // 0.1 m a frame
+  place::WalkSamplingOptions options;
+  options.source = vo::MotionSource::kFile;
+  options.spacing_m = 0.5;
+  const auto sampled = place::sample_walk(known.walk, options);
+  EXPECT_EQ(sampled.unit, 0.5);
+  // Eq. 4 in metres: n times the mean displacement of a frame.
+  options.spacing_m.reset();
+  options.n = 3;
+  EXPECT_NEAR(place::sample_walk(known.walk, options).unit, 0.3, 1e-3);  // the first frame has none
 }
 
 TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
@@ -113,7 +140,6 @@ TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
   EXPECT_EQ(traverse.pose_source, "truth.csv");
   EXPECT_EQ(traverse.frames, static_cast<std::int64_t>(known.place_px.size()));
   EXPECT_EQ(traverse.duration_s, known.walk.time_s.back());
-  EXPECT_TRUE(traverse.motion_model.learned());
   ASSERT_EQ(traverse.thumbnails.size(), traverse.keyframes.size());
   ASSERT_GT(traverse.keyframes.size(), 50U);
   for (std::size_t k = 0; k < traverse.keyframes.size(); ++k) {
@@ -124,7 +150,7 @@ TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
     EXPECT_EQ(keyframe.pose->x_m, known.place_px[frame] / 10);
     EXPECT_THAT(traverse.thumbnails[k], testing::ElementsAreArray(known.walk.thumbnails[frame]));
     // Each multiple of the unit has the frame nearest to it, which is within half the fastest step, 2.
-    EXPECT_NEAR(keyframe.displacement, static_cast<double>(k) * route_.sampling.unit, 1) << k;
+    EXPECT_NEAR(keyframe.displacement, static_cast<double>(k) * route_.unit, 1) << k;
   }
 }
 
@@ -132,8 +158,8 @@ TEST(MakeTraverse, RefusesTheSurveyOfAnotherWalk) {
   const Wall wall(100, 1);
   const auto known = steady_walk(wall, 1, 0, 20);
   place::WalkSamplingOptions options;
-  options.sampling.motion = vo::MotionSource::kNone;
-  const auto sampled = place::sample_walk(known.walk, {}, nullptr, options);
+  options.source = vo::MotionSource::kNone;
+  const auto sampled = place::sample_walk(known.walk, options);
   auto survey = survey_of(known);
   EXPECT_NO_THROW(place::make_traverse("a", known.walk, sampled, survey));
   survey.distance_m.pop_back();

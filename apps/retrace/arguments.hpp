@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <place/settings.hpp>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace retrace {
+
+/// Options that most commands share.
+struct CommonOptions {
+  bool force = false;
+  bool json = false;
+};
+
+/// One argument of a command, to say more of it.
+class Argument {
+ public:
+  explicit Argument(CLI::Option* option) : option_(option) {}
+
+  Argument& required();
+  Argument& positive();      ///< a number above 0
+  Argument& non_negative();  ///< a number of at least 0
+  Argument& range(double least, double most);
+  Argument& existing_file();
+  Argument& comma_separated();           ///< of a list
+  Argument& count(int least, int most);  ///< of a list
+  Argument& group(const std::string& name);
+  Argument& excludes(const Argument& other);
+  Argument& needs(const Argument& other);
+
+ private:
+  friend class Arguments;
+  CLI::Option* option_;
+};
+
+/// The arguments of one command: what it declares here is parsed, checked and explained by --help. CLI11 lies
+/// behind it.
+///
+/// Targets must live as long as the command; what is in them before is the default. Types: std::string, int,
+/// std::size_t, std::uint64_t, double, std::optional of these, and std::vector<std::string>.
+class Arguments {
+ public:
+  /// `all`: --help shows every setting, not only those that most people use.
+  Arguments(CLI::App& app, bool all);
+
+  template <typename T>
+  Argument positional(const std::string& name, T& target, const std::string& description);
+  template <typename T>
+  Argument option(const std::string& flag, T& target, const std::string& description);
+  Argument flag(const std::string& name, bool& target, const std::string& description);
+
+  /// An option whose value is one of a few names.
+  template <typename Choice>
+  Argument choice(const std::string& flag, Choice& target,
+                  const std::vector<std::pair<std::string, Choice>>& choices,
+                  const std::string& description) {
+    std::vector<std::string> names;
+    std::string current;
+    for (const auto& [text, value] : choices) {
+      names.push_back(text);
+      if (value == target) current = text;
+    }
+    return named_choice(
+        flag, names, current,
+        [&target, choices](const std::string& text) {
+          target = std::ranges::find(choices, text, &std::pair<std::string, Choice>::first)->second;
+        },
+        description);
+  }
+
+  /// Exactly one of these must be given.
+  void exactly_one(std::initializer_list<Argument> arguments);
+
+  /// The settings of these groups as flags, and --config, a file of settings below the flags. `target` holds
+  /// what was given, once all is parsed.
+  void settings(place::Settings& target, std::initializer_list<place::SettingGroup> groups,
+                const std::vector<std::string>& without = {});
+  /// --force and --json.
+  void common(CommonOptions& target);
+  void force(CommonOptions& target);
+  void json(CommonOptions& target);
+
+  /// Lines below the help: examples.
+  void footer(const std::string& text);
+
+  /// Puts what --config names below the flags. Called once all is parsed. Throws `vo::Error` for a file that
+  /// cannot be read as settings.
+  void finish();
+
+ private:
+  Argument named_choice(const std::string& flag, const std::vector<std::string>& names,
+                        const std::string& current, std::function<void(const std::string&)> take,
+                        const std::string& description);
+  void setting(place::Settings& target, const place::Setting& setting);
+
+  CLI::App& app_;
+  bool all_;
+  std::string config_;
+  place::Settings* settings_ = nullptr;
+};
+
+}  // namespace retrace

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <place/settings.hpp>
+#include <place/trajectory/close_loops.hpp>
+#include <vo/motion/walk_motion.hpp>
+
+namespace retrace {
+
+/// The files that `retrace odometry` writes.
+extern const std::vector<std::string> kOdometryFiles;
+
+/// What is written only if it was asked for.
+struct OdometryExtras {
+  const place::ClosedLoops* loops = nullptr;  ///< the trajectory with them, and the one before
+  bool visual_odometry = false;               ///< visual_odometry.csv and .tum
+};
+
+/// What is said of the walk.
+struct WrittenOdometry {
+  double distance = 0;
+  std::string unit;     ///< of the distance: m, or frames or units without metres
+  std::string summary;  ///< what summary.json holds
+};
+
+/// Writes a walk's odometry into a folder that is there: frames.csv, steps.csv, activity.csv, trajectory.tum,
+/// summary.json, config.toml and the report. `walked`: with steps.
+WrittenOdometry write_odometry(const std::filesystem::path& folder, const vo::Walk& walk,
+                               const vo::WalkMotion& walked, const place::Settings& settings,
+                               const OdometryExtras& extras);
+
+}  // namespace retrace

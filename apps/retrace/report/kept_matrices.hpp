@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <place/match/route_matching.hpp>
+
+namespace retrace {
+
+/// The matrices of a search against one traverse, for people to look at.
+struct KeptMatrix {
+  place::CostMatrix cost;
+  place::CostMatrix enhanced;
+  std::size_t shrink = 1;  ///< a cell is the least of so many by so many, where the matrix is a large one;
+                           ///< infinite where no pair of them was compared
+};
+
+/// Keeps the matrices of a search as they pass by (`place::SearchCallback`): at most 1024 cells along a side,
+/// unless they are wanted whole. Memory: 8 MB for each traverse.
+class MatrixKeeper {
+ public:
+  MatrixKeeper(const place::Route& route, bool whole);
+
+  void operator()(const place::SearchPart& part);
+
+  /// One for each traverse that was searched.
+  [[nodiscard]] const std::vector<KeptMatrix>& matrices() const { return matrices_; }
+
+ private:
+  const place::Route& route_;
+  bool whole_;
+  std::vector<KeptMatrix> matrices_;
+};
+
+}  // namespace retrace

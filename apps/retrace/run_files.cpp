@@ -1,0 +1,219 @@
+#include "run_files.hpp"
+
+#include "report/kept_matrices.hpp"
+#include "report/matrix_picture.hpp"
+#include "report/run_data.hpp"
+#include "report/run_report.hpp"
+#include "settings_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <place/match/match_io.hpp>
+#include <place/route/geographic.hpp>
+#include <place/version.hpp>
+#include <vo/io/atomic_file.hpp>
+#include <vo/io/csv_columns.hpp>
+#include <vo/io/trajectory_io.hpp>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+/// One line for each row, nine digits, which tell floats apart.
+std::string matrix_csv(const place::CostMatrix& matrix) {
+  fmt::memory_buffer text;
+  for (std::size_t q = 0; q < matrix.queries; ++q) {
+    for (std::size_t r = 0; r < matrix.references; ++r) {
+      fmt::format_to(std::back_inserter(text), "{}{:.9g}", r == 0 ? "" : ",", matrix.at(q, r));
+    }
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
+}
+
+ordered_json drift_summary(const place::QueryTrajectory& trajectory) {
+  if (!trajectory.why_not.empty()) return {{"corrected", false}, {"reason", trajectory.why_not}};
+  const place::CorrectedWalk& walk = trajectory.corrected;
+  return {{"corrected", true},
+          {"matches_used", trajectory.fixes.size()},
+          {"matches_believed", matches_believed(trajectory)},
+          {"step_scale", walk.step_scale.back()},
+          {"turn_scale", walk.turn_scale.back()}};
+}
+
+ordered_json summary(const place::Route& route, const std::string& route_path, const vo::Walk& walk,
+                     const place::Run& run) {
+  std::size_t matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
+  for (const place::Match& match : run.matches) {
+    matched += match.place ? 1 : 0;
+    accepted += match.accepted ? 1 : 0;
+    partial += match.partial ? 1 : 0;
+    partial_accepted += match.partial && match.accepted ? 1 : 0;
+  }
+  ordered_json json{{"query", walk.source},
+                    {"query_frames", walk.frames()},
+                    {"query_duration_s", walk.time_s.back()},
+                    {"route", route_path},
+                    {"traverses", ordered_json::array()},
+                    {"queries", run.matches.size()},
+                    {"matched", matched},
+                    {"accepted", accepted},
+                    {"partial", partial},
+                    {"partial_accepted", partial_accepted},
+                    {"accept_score", run.settings.accept_score.value_or(0)},
+                    {"sequence_length", run.sequence_length},
+                    {"lines", run.lines},
+                    {"sampling_unit", run.sampled.unit},
+                    {"relative_scale", run.sampled.scale},
+                    {"warnings", walk.warnings},
+                    {"version", place::kVersion}};
+  json["drift"] = drift_summary(run.drift);
+  for (const place::Traverse& traverse : route.traverses) {
+    json["traverses"].push_back({{"name", traverse.name}, {"keyframes", traverse.keyframes.size()}});
+  }
+  return json;
+}
+
+/// Accepted matches' poses, at the query's times.
+vo::Trajectory matched_poses(const std::vector<place::Match>& matches) {
+  vo::Trajectory trajectory;
+  for (const place::Match& match : matches)
+    if (match.accepted && match.place->pose) trajectory.push_back({match.query_time_s, *match.place->pose});
+  return trajectory;
+}
+
+vo::Trajectory without_covariance(const place::CorrectedWalk& walk) {
+  vo::Trajectory trajectory;
+  for (const place::UncertainPose& pose : walk.poses) trajectory.push_back({pose.time_s, pose.pose});
+  return trajectory;
+}
+
+/// A row of trajectory.csv.
+struct TrajectoryRow {
+  std::int64_t query_frame = 0;
+  place::UncertainPose pose;
+  place::RoutePosition on_route;
+  double step_scale = 1, turn_scale = 1;
+  std::optional<double> match_weight;
+};
+
+std::string six(double value) {
+  return fmt::format("{:.6f}", value);
+}
+std::string nine(double value) {
+  return fmt::format("{:.9g}", value);
+}
+
+using Row = TrajectoryRow;
+constexpr std::array kTrajectoryColumns{
+    vo::CsvColumn<Row>{"query_frame", [](const Row& r) { return fmt::format("{}", r.query_frame); }},
+    vo::CsvColumn<Row>{"time_s", [](const Row& r) { return six(r.pose.time_s); }},
+    vo::CsvColumn<Row>{"x_m", [](const Row& r) { return six(r.pose.pose.x_m); }},
+    vo::CsvColumn<Row>{"y_m", [](const Row& r) { return six(r.pose.pose.y_m); }},
+    vo::CsvColumn<Row>{"heading_deg", [](const Row& r) { return six(r.pose.pose.heading_rad * kDegrees); }},
+    vo::CsvColumn<Row>{"cov_xx_m2", [](const Row& r) { return nine(r.pose.covariance[0]); }},
+    vo::CsvColumn<Row>{"cov_xy_m2", [](const Row& r) { return nine(r.pose.covariance[1]); }},
+    vo::CsvColumn<Row>{"cov_yy_m2", [](const Row& r) { return nine(r.pose.covariance[4]); }},
+    vo::CsvColumn<Row>{"heading_sd_deg",
+                       [](const Row& r) { return six(std::sqrt(r.pose.covariance[8]) * kDegrees); }},
+    vo::CsvColumn<Row>{"distance_m", [](const Row& r) { return six(r.on_route.distance_m); }},
+    vo::CsvColumn<Row>{"lateral_m", [](const Row& r) { return six(r.on_route.right_m); }},
+    vo::CsvColumn<Row>{"step_scale", [](const Row& r) { return six(r.step_scale); }},
+    vo::CsvColumn<Row>{"turn_scale", [](const Row& r) { return six(r.turn_scale); }},
+    vo::CsvColumn<Row>{
+        "match_weight",
+        [](const Row& r) { return r.match_weight ? fmt::format("{:.4f}", *r.match_weight) : std::string(); }},
+};
+
+std::string trajectory_csv(const place::QueryTrajectory& t, const std::vector<place::Match>& matches) {
+  std::vector<TrajectoryRow> rows;
+  for (std::size_t i = 0; i < t.corrected.poses.size(); ++i) {
+    rows.push_back({.query_frame = matches[i].query_frame,
+                    .pose = t.corrected.poses[i],
+                    .on_route = t.on_route[i],
+                    .step_scale = t.corrected.step_scale[i],
+                    .turn_scale = t.corrected.turn_scale[i],
+                    .match_weight = {}});
+  }
+  for (std::size_t i = 0; i < t.fixes.size(); ++i)
+    rows[t.fixes[i].node].match_weight = t.corrected.fix_weight[i];
+  return vo::to_csv<TrajectoryRow>(rows, kTrajectoryColumns);
+}
+
+void write_matrices(const fs::path& folder, const std::vector<KeptMatrix>& matrices,
+                    const place::Route& route, const std::vector<place::Match>& matches, bool whole) {
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
+    constexpr int kSide_px = 900;
+    const std::vector<std::uint8_t> png =
+        matrix_picture(matrices[i].enhanced, matches, route.traverses[i].name, kSide_px, matrices[i].shrink);
+    vo::write_file(folder / fmt::format("cost_matrix{}.png", suffix),
+                   {reinterpret_cast<const char*>(png.data()), png.size()});
+    if (!whole) continue;
+    vo::write_file(folder / fmt::format("D{}.csv", suffix), matrix_csv(matrices[i].cost));
+    vo::write_file(folder / fmt::format("DD{}.csv", suffix), matrix_csv(matrices[i].enhanced));
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string> kRunFiles{"matches.csv",    "trajectory.tum", "trajectory_odometry.tum",
+                                         "trajectory.csv", "summary.json",   "report.html",
+                                         kRunDataFile,     "config.toml"};
+
+WrittenRun localise_into(const fs::path& folder, const place::Route& route, const std::string& route_path,
+                         const vo::Walk& walk, const place::Settings& settings, bool whole_matrices) {
+  MatrixKeeper keeper(route, whole_matrices);
+  place::Run run = place::localise(route, walk, settings, std::ref(keeper));
+  for (const std::string& warning : run.sampled.warnings) spdlog::warn("{}", warning);
+  if (!run.drift.why_not.empty() && place::has_poses(route) && run.settings.correct_drift.value_or(false))
+    spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
+                 run.drift.why_not);
+  std::string text = summary(route, route_path, walk, run).dump(2) + "\n";
+  vo::write_file(folder / "matches.csv", place::to_csv(run.matches));
+  write_trajectory(run.drift, route, run.matches, folder);
+  vo::write_file(folder / "summary.json", text);
+  vo::write_file(folder / "config.toml", to_toml(run.settings));
+  const ordered_json data = run_data(route, walk, run, keeper.matrices());
+  vo::write_file(folder / kRunDataFile, data.dump());
+  vo::write_file(folder / "report.html", run_report(folder, data));
+  write_matrices(folder, keeper.matrices(), route, run.matches, whole_matrices);
+  return {std::move(run), keeper.matrices(), std::move(text)};
+}
+
+void write_trajectory(const place::QueryTrajectory& t, const place::Route& route,
+                      const std::vector<place::Match>& matches, const fs::path& folder) {
+  for (const char* name :
+       {"trajectory_odometry.tum", "trajectory.csv", "trajectory.geojson", "trajectory.gpx"})
+    fs::remove(folder / name);
+  if (!t.why_not.empty()) {
+    const std::string comment =
+        t.fixes.empty() ? fmt::format("no pose: {}", t.why_not)
+                        : fmt::format("query time, pose of the matched reference keyframe: {}", t.why_not);
+    vo::write_file(folder / "trajectory.tum", vo::to_tum(matched_poses(matches), comment));
+    return;
+  }
+  const vo::Trajectory corrected = without_covariance(t.corrected);
+  vo::write_file(
+      folder / "trajectory.tum",
+      vo::to_tum(corrected, "query time, corrected pose of each query keyframe in the route's coordinates"));
+  vo::write_file(folder / "trajectory_odometry.tum",
+                 vo::to_tum(t.odometry, "the same before correction, laid where the corrected one begins"));
+  vo::write_file(folder / "trajectory.csv", trajectory_csv(t, matches));
+  if (!route.origin || !route.traverses[*t.traverse].surveyed) return;
+  vo::write_file(folder / "trajectory.geojson", place::to_geojson(corrected, *route.origin));
+  vo::write_file(folder / "trajectory.gpx", place::to_gpx(corrected, *route.origin));
+}
+
+}  // namespace retrace

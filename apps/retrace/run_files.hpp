@@ -1,0 +1,36 @@
+#pragma once
+
+#include "report/kept_matrices.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <place/place.hpp>
+
+namespace retrace {
+
+/// The files that `retrace localise` writes.
+extern const std::vector<std::string> kRunFiles;
+
+/// A run whose files are written.
+struct WrittenRun {
+  place::Run run;
+  std::vector<KeptMatrix> matrices;  ///< one for each traverse
+  std::string summary;               ///< what summary.json holds
+};
+
+/// Finds a walk on a route (`place::localise`) and writes all of a run into a folder that is there:
+/// matches.csv, the trajectories, summary.json, config.toml, the report and the cost matrix.
+/// `whole_matrices`: D.csv and DD.csv too. Warnings go to the log.
+WrittenRun localise_into(const std::filesystem::path& folder, const place::Route& route,
+                         const std::string& route_path, const vo::Walk& walk, const place::Settings& settings,
+                         bool whole_matrices = false);
+
+/// Writes trajectory.tum: the corrected poses, or else those of accepted matches. With a correction also
+/// trajectory_odometry.tum and trajectory.csv, and trajectory.geojson and .gpx where the route has an origin;
+/// those not written are removed, since they would be another run's.
+void write_trajectory(const place::QueryTrajectory& trajectory, const place::Route& route,
+                      const std::vector<place::Match>& matches, const std::filesystem::path& folder);
+
+}  // namespace retrace

@@ -1,0 +1,75 @@
+#include "settings_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <vo/base/error.hpp>
+
+namespace retrace {
+namespace {
+
+std::vector<CLI::ConfigItem> parse_toml(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) throw vo::Error(file, "is no file", "a TOML file of settings");
+  std::ifstream stream(file);
+  if (!stream) throw vo::Error(file, "cannot be read", "a TOML file of settings");
+  try {
+    return CLI::ConfigTOML().from_config(stream);
+  } catch (const CLI::Error& error) {
+    throw vo::Error(file, error.what(), "lines of `key = value`");
+  }
+}
+
+/// The value as TOML has it: texts in quotation marks, with what would end them escaped.
+std::string quoted(const place::Setting& setting, const std::string& value) {
+  if (!std::holds_alternative<std::optional<std::string> place::Settings::*>(setting.field)) return value;
+  const bool plain = value.find_first_of("\"\\") == std::string::npos;
+  return plain ? fmt::format("\"{}\"", value) : fmt::format("'{}'", value);
+}
+
+}  // namespace
+
+place::Settings read_settings_file(const std::string& file) {
+  place::Settings settings;
+  std::set<std::string> seen;
+  for (const CLI::ConfigItem& item : parse_toml(file)) {
+    if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the begin and end of a section
+    const std::string key = item.fullname();
+    try {
+      const place::Setting& setting = place::setting_named(key);
+      // CLI11 puts the values of a repeated key together.
+      if (!seen.insert(key).second || item.inputs.size() > 1)
+        throw vo::Error(key, "stands there twice, or with several values", "one value, once");
+      if (item.inputs.empty()) throw vo::Error(key, "has no value", "one value");
+      place::set(settings, setting, item.inputs.front());
+    } catch (const vo::Error& error) {
+      throw vo::Error(file, error.what());
+    }
+  }
+  return settings;
+}
+
+std::string to_toml(const place::Settings& settings) {
+  std::string text = "# Settings of retrace, for --config; flags on the command line come first.\n";
+  std::string_view group;
+  for (const place::Setting& setting : place::settings_table()) {
+    if (place::name_of(setting.group) != group)
+      text += fmt::format("\n# ---- {} ----\n", place::name_of(setting.group));
+    group = place::name_of(setting.group);
+    const std::optional<std::string> value = place::text_of(settings, setting);
+    text += fmt::format("\n# {}\n", setting.description);
+    if (value) {
+      text += fmt::format("{} = {}\n", setting.name, quoted(setting, *value));
+    } else {
+      const std::string standard(setting.standard);
+      text +=
+          fmt::format("# {} ={}\n", setting.name, standard.empty() ? "" : " " + quoted(setting, standard));
+    }
+  }
+  return text;
+}
+
+}  // namespace retrace

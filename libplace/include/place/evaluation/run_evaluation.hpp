@@ -1,0 +1,39 @@
+#pragma once
+
+#include "place/evaluation/evaluation.hpp"
+#include "place/evaluation/ground_truth.hpp"
+#include "place/match/match.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace place {
+
+/// How far off is still right: one of the two.
+struct Tolerance {
+  std::optional<double> tolerance_m;       ///< metres along the route [SSS 4.2: 4]
+  std::optional<double> tolerance_frames;  ///< reference frames
+};
+
+/// A run held against the truth.
+struct RunEvaluation {
+  double tolerance = 0;  ///< in the unit
+  ErrorUnit unit = ErrorUnit::kMetres;
+  std::vector<PlaceError> errors;    ///< one for each match
+  std::vector<ScoredQuery> queries;  ///< the same with scores
+  Evaluation evaluation;
+  OperatingPoint accepted;  ///< the run's own acceptance
+};
+
+/// The truth of a query and a reference that were both surveyed: `read_truth` of both. Throws `vo::Error` as
+/// that does.
+GroundTruth truth(const std::filesystem::path& query_truth, const std::filesystem::path& reference_truth);
+
+/// Holds matches against the truth (SSS 4.2; counting as `Evaluation` says). Throws `vo::Error` if a frame is
+/// outside the truth, `std::invalid_argument` unless one tolerance is given, and in a unit that the truth can
+/// tell. O(matches log matches + matches * frames).
+RunEvaluation evaluate(std::span<const Match> matches, const GroundTruth& truth, const Tolerance& tolerance);
+
+}  // namespace place

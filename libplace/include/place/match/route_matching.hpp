@@ -1,0 +1,67 @@
+#pragma once
+
+#include "place/match/candidates.hpp"
+#include "place/match/contrast_enhancement.hpp"
+#include "place/match/match.hpp"
+#include "place/match/openseqslam.hpp"
+#include "place/match/streamed_search.hpp"
+#include "place/route/route_database.hpp"
+#include "place/route/walk_sampling.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <vo/image/patch_normalisation.hpp>
+
+namespace place {
+
+/// Whether a walk is compared with all of a traverse or with a shortlist of it.
+enum class CandidateUse {
+  kAuto,    ///< a shortlist where walk and traverse are so long that it saves time
+  kNever,   ///< always all
+  kAlways,  ///< always a shortlist
+};
+
+/// Settings of `match_on_route`.
+struct RouteMatchingOptions {
+  CandidateUse candidate_use = CandidateUse::kAuto;
+  CandidateOptions candidates;  ///< its margin is widened to half a line
+  vo::PatchNormalisationOptions patch;
+  CostOptions cost;
+  ContrastEnhancementOptions enhancement;
+  SequenceSearchOptions search;
+  /// Metres on a line, instead of `search.length`; needs surveyed distances.
+  std::optional<double> sequence_length_m;
+  double accept_score = 0.7;  ///< least score of an accepted match, in deviations of the enhanced cost
+  std::optional<openseqslam::Options> openseqslam;  ///< run the original's search instead of ours
+};
+
+/// A part of the matrices of a search against one traverse: all queries by some of its keyframes.
+struct SearchPart {
+  std::size_t traverse = 0;                 ///< of the route
+  bool enhanced = false;                    ///< or costs as they are
+  ConstCosts costs;                         ///< its columns are counted ...
+  std::span<const std::size_t> references;  ///< ... by this: the traverse's keyframe of every column
+};
+
+/// Sees the matrices of a search pass by, to keep or to draw them.
+using SearchCallback = std::function<void(const SearchPart&)>;
+
+/// Where a walk was found on a route.
+struct RouteMatches {
+  std::vector<Match> matches;  ///< one for each query keyframe, in order
+  int sequence_length = 0;     ///< keyframes, as used
+  int lines = 0;               ///< distinct lines searched through each pair; 0 in OpenSeqSLAM's search
+};
+
+/// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> sequence search,
+/// against each traverse by itself; of a route's traverses the one with the surest match counts. `time_s`: of
+/// the walk's frames. Throws `vo::Error` naming the traverse if it is shorter than the sequence, or has no
+/// distances where a length in metres asks for them; `std::invalid_argument` for a route without traverses.
+RouteMatches match_on_route(const Route& route, std::span<const double> time_s, const SampledWalk& sampled,
+                            const RouteMatchingOptions& options, const SearchCallback& callback = {});
+
+}  // namespace place

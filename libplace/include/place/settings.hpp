@@ -1,0 +1,124 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+/// Everything that can be set, each setting once: a field of `Settings` and its entry in the table. Flags,
+/// TOML, help, validation, the saved configuration and the route database are made from the table.
+namespace place {
+
+/// What was given, and only that: a field without a value was not given. `resolve` (place/resolve.hpp) fills
+/// in the rest. Units are in the names; the table says what each does, its range and its source.
+struct Settings {
+  // Reading
+  std::optional<double> frame_rate_hz;
+  std::optional<int> thumbnail_width, thumbnail_height, preview_width_px;
+  std::optional<int> patch_px;
+  std::optional<std::string> patch_shape;
+  std::optional<double> patch_min_contrast;
+
+  // Motion and sampling
+  std::optional<std::string> motion, motion_file;
+  std::optional<double> motion_file_start_s, motion_file_gap_s;
+  std::optional<int> every;
+  std::optional<double> spacing_m, sampling_n;
+  std::optional<int> separations;
+  std::optional<double> max_speed, standing_span_s, local_window_s, high_error_mads;
+  std::optional<bool> tie_scale;
+
+  // Pedestrian odometry
+  std::optional<std::string> camera;
+  std::optional<double> fov_deg, step_length, camera_height_m;
+  std::optional<std::string> step_length_model;
+  std::optional<int> tracking_width_px, tracking_window;
+  std::optional<std::string> average, heading;
+  std::optional<double> lowpass_cutoff_hz;
+  std::optional<std::string> step_signal;
+  std::optional<double> min_step_deg;
+
+  // Search
+  std::optional<std::string> compat, candidates;
+  std::optional<int> max_shift_px;
+  std::optional<std::string> enhance;
+  std::optional<int> enhance_window;
+  std::optional<double> sequence_length_m;
+  std::optional<int> sequence_length;
+  std::optional<double> v_min, v_max, search_range_rad;
+  std::optional<double> min_fraction;
+  std::optional<int> uniqueness_window;
+  std::optional<double> accept_score;
+  std::optional<bool> correct_drift;
+
+  // General
+  std::optional<int> threads;
+
+  bool operator==(const Settings&) const = default;
+};
+
+/// What a setting belongs to, and so which commands take it.
+enum class SettingGroup { kReading, kMotion, kOdometry, kSearch, kGeneral };
+
+/// "Reading", "Motion and sampling", ... for people.
+std::string_view name_of(SettingGroup group);
+
+/// Whether walks on a route share a setting.
+enum class OfRoute {
+  kNo,         ///< each walk has its own
+  kInherited,  ///< a walk that is not given another has the route's
+  kFixed,      ///< keyframes are comparable only with the same: another value is refused
+};
+
+/// The field a setting lies in.
+using SettingField = std::variant<std::optional<bool> Settings::*, std::optional<int> Settings::*,
+                                  std::optional<double> Settings::*, std::optional<std::string> Settings::*>;
+
+/// An entry of the table.
+struct Setting {
+  std::string_view name;  ///< of the flag, the TOML key and the keyword: search-range-rad
+  SettingField field;
+  SettingGroup group = SettingGroup::kGeneral;
+  OfRoute of_route = OfRoute::kInherited;
+  std::string_view standard;     ///< what it is if it is not given; empty: nothing, or `resolve` decides
+  double least = 0, most = 0;    ///< of a number, both included
+  bool above_least = false;      ///< the least itself is excluded
+  std::string_view choices;      ///< of a text: a|b|c; empty: any
+  std::string_view when;         ///< where it has an effect, see `has_effect`; empty: everywhere
+  std::string_view description;  ///< unit, meaning, [source]
+  bool everyday = false;         ///< one of the dozen that --help shows
+  bool at_reading = false;       ///< shapes what is kept of a walk while it is read
+};
+
+/// All settings, in the order of their groups.
+std::span<const Setting> settings_table();
+
+/// The entry of a name. Throws `vo::Error` with the nearest name there is.
+const Setting& setting_named(std::string_view name);
+
+/// The setting's value as text, as it stands in TOML but without quotation marks; none if it has none.
+std::optional<std::string> text_of(const Settings& settings, const Setting& setting);
+
+/// Sets it from text. Throws `vo::Error` naming the setting, its value and what was expected.
+void set(Settings& settings, const Setting& setting, std::string_view text);
+
+/// Takes the value away.
+void reset(Settings& settings, const Setting& setting);
+
+/// Throws `vo::Error` for the first value that is out of its range or choices.
+void check_ranges(const Settings& settings);
+
+/// What of `given` is there, and where it is not, what is in `otherwise`.
+Settings merged(const Settings& given, const Settings& otherwise);
+
+/// True if the conditions of `setting.when` hold: `name=a|b` that a setting is one of these, `name!=a|b` that
+/// it is none of them, `!name` that it has no value; several are joined by `&`. `why_not`: if given, filled
+/// with a condition that does not hold, for people ("motion is sad", "camera is given").
+bool has_effect(const Settings& settings, const Setting& setting, std::string* why_not = nullptr);
+
+/// The candidate that takes the fewest edits to make of `name`; empty if even that takes more than half its
+/// letters.
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
+
+}  // namespace place

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "place/match/match.hpp"
+#include "place/route/route_database.hpp"
+#include "place/route/route_position.hpp"
+#include "place/trajectory/drift_correction.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vo/base/trajectory.hpp>
+
+namespace place {
+
+/// A query walk in the route's coordinates, a pose for each of its keyframes.
+struct QueryTrajectory {
+  /// Why there is no corrected trajectory; empty if there is one. Only accepted matches' poses say then where
+  /// the walker was.
+  std::string why_not;
+
+  std::optional<std::size_t> traverse;  ///< that the positions are along
+  std::vector<PoseFix> fixes;           ///< accepted matches with poses, by keyframe
+  vo::Trajectory odometry;              ///< before, laid where the corrected one begins
+  CorrectedWalk corrected;
+  std::vector<RoutePosition> on_route;
+};
+
+/// How many of the matches used the correction bears out.
+std::size_t matches_believed(const QueryTrajectory& trajectory);
+
+/// Corrects the drift of a walk's odometry by its matches (PVO 6; `pose_fixes`, `correct_drift`). `odometry`:
+/// a pose for each match. Where the correction lets go more than two thirds of the matches, it is not to be
+/// trusted, and there is none. Throws `std::invalid_argument` for another number of poses.
+QueryTrajectory query_trajectory(const Route& route, const std::vector<Match>& matches,
+                                 const vo::Trajectory& odometry);
+
+}  // namespace place

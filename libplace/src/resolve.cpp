@@ -1,0 +1,142 @@
+#include "place/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include <vo/base/error.hpp>
+
+namespace place {
+namespace {
+
+// Metres between keyframes of metric motion: lines of ten find most from 0.8 to 0.9 m on (tests/RESULTS.md).
+constexpr double kUsualSpacing_m = 0.85;
+constexpr double kUsualN = 6;  // of SSS Eq. 4
+constexpr double kAcceptScore = 0.7;
+constexpr double kAcceptOriginalScore = 0.1;  // 1 - best / second best, another scale than ours
+
+bool is(const std::optional<std::string>& value, std::string_view what) {
+  return value && *value == what;
+}
+
+/// A copy with what a walk has from its route.
+Settings with_route(Settings settings, const Settings& route) {
+  const bool density_given = settings.sampling_n || settings.spacing_m;
+  for (const Setting& setting : settings_table()) {
+    if (setting.of_route == OfRoute::kNo) continue;
+    const std::optional<std::string> mine = text_of(settings, setting), routes = text_of(route, setting);
+    if (setting.of_route == OfRoute::kFixed && mine && routes && mine != routes) {
+      throw vo::Error(std::string(setting.name),
+                      fmt::format("is {} and the route was built with {}", *mine, *routes),
+                      "the same, or leave it out");
+    }
+    const bool density = setting.name == "sampling-n" || setting.name == "spacing-m";
+    if (!mine && routes && !(density && density_given)) set(settings, setting, *routes);
+  }
+  if (settings.motion != route.motion && !is(settings.motion, "none")) {
+    throw vo::Error("motion",
+                    fmt::format("is {} and the route was sampled by {}, which has another unit",
+                                *settings.motion, route.motion.value_or("none")),
+                    "the same, or leave it out");
+  }
+  return settings;
+}
+
+/// False for settings that a purpose passes over.
+bool serves(Purpose purpose, const Setting& setting) {
+  if (purpose == Purpose::kLocalise) return true;
+  if (purpose == Purpose::kOdometry) {
+    for (const std::string_view sampling : {"every", "spacing-m", "sampling-n", "tie-scale"})
+      if (setting.name == sampling) return false;
+  }
+  return setting.group != SettingGroup::kSearch;
+}
+
+/// `has_effect`, and of settings of odometry whether steps are followed.
+bool matters(const Settings& settings, const Setting& setting, const ResolveContext& context,
+             std::string* why_not) {
+  if (!has_effect(settings, setting, why_not)) return false;
+  if (setting.group != SettingGroup::kOdometry || follows_steps(settings, context)) return true;
+  if (setting.name == "camera-height-m") return true;  // of a trajectory from a file
+  // Visual odometry sees through the same camera.
+  if (is(settings.motion, "vo") && (setting.name == "fov-deg" || setting.name == "camera")) return true;
+  *why_not = fmt::format("motion is {}, so no steps are followed", settings.motion.value_or("none"));
+  return false;
+}
+
+/// Odometry is by steps, with or without visual odometry.
+void choose_odometry(Settings& settings) {
+  if (!settings.motion) settings.motion = "hybrid";
+  if (!is(settings.motion, "hybrid") && !is(settings.motion, "steps"))
+    throw vo::Error("motion", fmt::format("is {}", *settings.motion), "hybrid or steps for odometry");
+}
+
+/// How dense keyframes are, where it was not given.
+void choose_density(Settings& settings, const Settings& given) {
+  if (is(settings.motion, "none")) return;
+  const bool surely_metric = is(settings.motion, "steps");
+  const bool may_be_metric = surely_metric || is(settings.motion, "hybrid") || is(settings.motion, "file");
+  const bool only_spacing = given.spacing_m && !given.sampling_n;
+  if (may_be_metric && !settings.spacing_m && !settings.sampling_n) settings.spacing_m = kUsualSpacing_m;
+  if (!surely_metric && !only_spacing && !settings.sampling_n) settings.sampling_n = kUsualN;
+}
+
+void check_together(const Settings& settings) {
+  if (is(settings.motion, "file") && !settings.motion_file)
+    throw vo::Error("motion-file", "is missing", "a trajectory file, with motion file");
+  if (settings.v_min.has_value() != settings.v_max.has_value())
+    throw vo::Error(settings.v_min ? "v-max" : "v-min", "is missing", "both v-min and v-max, or neither");
+  if (settings.v_min && *settings.v_min > *settings.v_max)
+    throw vo::Error("v-min", fmt::format("is {} and v-max {}", *settings.v_min, *settings.v_max),
+                    "v-min <= v-max");
+  if (settings.max_shift_px && settings.thumbnail_width &&
+      2 * *settings.max_shift_px >= *settings.thumbnail_width) {
+    throw vo::Error("max-shift-px", fmt::format("is {}", *settings.max_shift_px),
+                    "less than half of thumbnail-width");
+  }
+}
+
+}  // namespace
+
+bool follows_steps(const Settings& settings, const ResolveContext& context) {
+  if (context.purpose == Purpose::kOdometry) return true;
+  if (is(settings.motion, "steps") || is(settings.motion, "hybrid")) return true;
+  return context.purpose == Purpose::kLocalise && context.route_has_poses &&
+         settings.correct_drift.value_or(true);
+}
+
+Settings resolve(const Settings& given, const ResolveContext& context) {
+  check_ranges(given);
+  const Settings own = context.route != nullptr ? with_route(given, *context.route) : given;
+  Settings settings = own;
+  if (context.purpose == Purpose::kOdometry) choose_odometry(settings);
+  // The table stands in such an order that a condition asks for settings before its own.
+  for (const Setting& setting : settings_table()) {
+    if (!serves(context.purpose, setting)) {
+      reset(settings, setting);
+      continue;
+    }
+    std::string why_not;
+    if (!matters(settings, setting, context, &why_not)) {
+      if (text_of(given, setting) && !context.pass_over)
+        throw vo::Error(std::string(setting.name), fmt::format("has no effect: {}", why_not),
+                        "another value there, or this setting left out");
+      reset(settings, setting);
+    } else if (!text_of(settings, setting) && !setting.standard.empty()) {
+      set(settings, setting, setting.standard);
+    }
+    if (setting.name == "motion") choose_density(settings, own);
+  }
+  if (serves(context.purpose, setting_named("accept-score")) && !settings.accept_score)
+    settings.accept_score = is(settings.compat, "none") ? kAcceptScore : kAcceptOriginalScore;
+  check_together(settings);
+  return settings;
+}
+
+Settings kept_by_route(const Settings& given, const Settings& resolved) {
+  Settings kept = merged(resolved, given);
+  for (const Setting& setting : settings_table()) {
+    if (setting.of_route == OfRoute::kNo) reset(kept, setting);
+  }
+  return kept;
+}
+
+}  // namespace place

@@ -1,0 +1,149 @@
+#include "place/stage_options.hpp"
+
+#include <initializer_list>
+#include <stdexcept>
+#include <utility>
+
+#include <vo/io/camera_calibration.hpp>
+
+namespace place {
+namespace {
+
+template <typename Value, typename Target>
+void put(const std::optional<Value>& value, Target& target) {
+  if (value) target = static_cast<Target>(*value);
+}
+
+void put(const std::optional<double>& value, std::optional<double>& target) {
+  if (value) target = value;
+}
+
+/// The enumerator of a choice of the table.
+template <typename Target>
+void put_choice(const std::optional<std::string>& value, Target& target,
+                std::initializer_list<std::pair<std::string_view, Target>> choices) {
+  if (!value) return;
+  for (const auto& [name, choice] : choices) {
+    if (*value == name) {
+      target = choice;
+      return;
+    }
+  }
+  throw std::invalid_argument("stage_options: resolved settings expected");
+}
+
+void put_reading(const Settings& s, StageOptions& options) {
+  vo::WalkOptions& walk = options.walk;
+  put(s.frame_rate_hz, walk.frames.image_rate_hz);
+  put(s.thumbnail_width, walk.thumbnail.width);
+  put(s.thumbnail_height, walk.thumbnail.height);
+  put(s.preview_width_px, walk.preview_width_px);
+  vo::PatchNormalisationOptions& patch = options.matching.patch;
+  put(s.patch_px, patch.patch_px);
+  put_choice(s.patch_shape, patch.shape,
+             {{"grid", vo::PatchShape::kGrid}, {"window", vo::PatchShape::kWindow}});
+  put(s.patch_min_contrast, patch.min_contrast);
+  options.sampling.motion.visual.patch = patch;
+}
+
+void put_motion(const Settings& s, StageOptions& options) {
+  WalkSamplingOptions& sampling = options.sampling;
+  put_choice(s.motion, sampling.source,
+             {{"none", vo::MotionSource::kNone},
+              {"sad", vo::MotionSource::kSad},
+              {"steps", vo::MotionSource::kSteps},
+              {"hybrid", vo::MotionSource::kHybrid},
+              {"vo", vo::MotionSource::kVisualOdometry},
+              {"file", vo::MotionSource::kFile}});
+  put(s.motion_file, options.motion_file);
+  put(s.motion_file_start_s, options.motion_file_fit.start_s);
+  put(s.motion_file_gap_s, options.motion_file_fit.max_gap_s);
+  put(s.every, sampling.every);
+  sampling.n = s.sampling_n;
+  sampling.spacing_m = s.spacing_m;
+  put(s.tie_scale, sampling.tie_scale);
+  vo::VisualMotionOptions& visual = sampling.motion.visual;
+  put(s.separations, visual.model.separations);
+  put(s.max_speed, visual.model.max_speed);
+  put(s.standing_span_s, visual.standing.span_s);
+  put(s.local_window_s, visual.model.local_window_s);
+  put(s.high_error_mads, visual.alignment.high_error_mads);
+}
+
+void put_odometry(const Settings& s, StageOptions& options) {
+  vo::FeatureTrackerOptions& tracker = options.walk.tracker;
+  put(s.fov_deg, tracker.fov_deg);
+  if (s.camera) tracker.camera = vo::read_camera_calibration(*s.camera);
+  options.walk.vo.fov_deg = tracker.fov_deg;
+  options.walk.vo.camera = tracker.camera;
+  put(s.tracking_width_px, tracker.width_px);
+  put(s.tracking_window, tracker.window);
+  put_choice(s.average, tracker.motion.average,
+             {{"median", vo::Average::kMedian}, {"mean", vo::Average::kMean}});
+  put_choice(s.heading, tracker.motion.heading.method,
+             {{"epipolar", vo::HeadingMethod::kEpipolar},
+              {"regions", vo::HeadingMethod::kRegions},
+              {"naive", vo::HeadingMethod::kNaive}});
+
+  vo::PedestrianMotionOptions& pedestrian = options.sampling.motion.pedestrian;
+  put(s.step_length, pedestrian.step_length.length_m);
+  put_choice(s.step_length_model, pedestrian.step_length.model,
+             {{"cadence", vo::StepLengthModel::kCadence}, {"fixed", vo::StepLengthModel::kFixed}});
+  put(s.camera_height_m, options.sampling.motion.hybrid.scale.camera_height_m);
+  put(s.lowpass_cutoff_hz, pedestrian.signal.lowpass.cutoff_hz);
+  put_choice(s.step_signal, pedestrian.steps.signal,
+             {{"auto", std::nullopt},
+              {"bounce", vo::StepSignal::kBounce},
+              {"orientation", vo::StepSignal::kOrientation},
+              {"shift", vo::StepSignal::kShift}});
+  put(s.min_step_deg, pedestrian.steps.detection.delta_min_deg);
+}
+
+openseqslam::Options original_options(const Settings& s) {
+  openseqslam::Options original;
+  put(s.patch_px, original.patch_px);
+  put(s.enhance_window, original.enhancement_window);
+  put(s.uniqueness_window, original.match_window);
+  put(s.v_min, original.v_min);
+  put(s.v_max, original.v_max);
+  original.quirks = openseqslam::Quirks::original();
+  original.quirks.constant_patch_is_zero = s.compat == "openseqslam";
+  return original;
+}
+
+void put_search(const Settings& s, StageOptions& options) {
+  RouteMatchingOptions& matching = options.matching;
+  put_choice(
+      s.candidates, matching.candidate_use,
+      {{"auto", CandidateUse::kAuto}, {"never", CandidateUse::kNever}, {"always", CandidateUse::kAlways}});
+  put(s.max_shift_px, matching.cost.max_shift_px);
+  put_choice(s.enhance, matching.enhancement.method,
+             {{"standardise", Enhancement::kStandardise},
+              {"local", Enhancement::kLocal},
+              {"none", Enhancement::kNone}});
+  put(s.enhance_window, matching.enhancement.window);
+  put(s.sequence_length, matching.search.length);
+  put(s.sequence_length_m, matching.sequence_length_m);
+  put(s.search_range_rad, matching.search.search_range_rad);
+  put(s.v_min, matching.search.v_min);
+  put(s.v_max, matching.search.v_max);
+  put(s.min_fraction, matching.search.min_fraction);
+  put(s.uniqueness_window, matching.search.uniqueness_window);
+  put(s.accept_score, matching.accept_score);
+  if (s.compat && s.compat != "none") matching.openseqslam = original_options(s);
+}
+
+}  // namespace
+
+StageOptions stage_options(const Settings& resolved, bool follow_steps) {
+  StageOptions options;
+  put_reading(resolved, options);
+  put_motion(resolved, options);
+  put_odometry(resolved, options);
+  put_search(resolved, options);
+  vo::keep_for(options.sampling.source, options.walk);
+  if (follow_steps) options.walk.track_features = true;
+  return options;
+}
+
+}  // namespace place

@@ -1,0 +1,270 @@
+#include "support/known_walk.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/match/route_matching.hpp>
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+
+namespace {
+
+using namespace test_support;
+using testing::SizeIs;
+
+/// Share of the query keyframes found within `tolerance_px` of where they are.
+double share_found(const place::RouteMatches& found, const KnownWalk& query, double tolerance_px) {
+  std::size_t right = 0;
+  for (const auto& match : found.matches) {
+    if (!match.place) continue;
+    const double true_px = query.place_px[static_cast<std::size_t>(match.query_frame)];
+    right += std::abs(10 * *match.place->distance_m - true_px) <= tolerance_px ? 1 : 0;
+  }
+  return static_cast<double>(right) / static_cast<double>(found.matches.size());
+}
+
+/// Keeps the matrices of a search, whole.
+struct Matrices {
+  explicit Matrices(const place::Route& of) : route(of) {}
+
+  void operator()(const place::SearchPart& part) {
+    while (cost.size() <= part.traverse) {
+      const std::size_t references = route.traverses[cost.size()].keyframes.size();
+      for (auto* all : {&cost, &enhanced}) {
+        all->push_back(place::make_cost_matrix(part.costs.queries, references));
+        std::ranges::fill(all->back().values, std::numeric_limits<float>::infinity());
+      }
+    }
+    place::CostMatrix& matrix = (part.enhanced ? enhanced : cost)[part.traverse];
+    for (std::size_t q = 0; q < part.costs.queries; ++q) {
+      for (std::size_t i = 0; i < part.costs.references; ++i)
+        matrix.row(q)[part.references[part.costs.first_reference + i]] = part.costs.row(q)[i];
+    }
+  }
+
+  const place::Route& route;
+  std::vector<place::CostMatrix> cost, enhanced;
+};
+
+/// One traverse along the wall at 1/2 pixel a frame, sampled by motion.
+class RouteMatchingTest : public testing::Test {
+ protected:
+  RouteMatchingTest() {
+    add_traverse(route_, "by day", steady_walk(wall_, 0.5));
+    options_.search.search_range_rad = 0.3;
+  }
+  Wall wall_{kWallPx, 1};
+  place::Route route_;
+  place::RouteMatchingOptions options_;
+};
+
+TEST_F(RouteMatchingTest, FindsAWalkAtAnotherSpeed) {
+  // A part of the wall, at twice the speed and then at half.
+  std::vector<double> speed_px(150, 1.0);
+  speed_px.insert(speed_px.end(), 600, 0.25);
+  const auto query = known_walk(wall_, places(101.3, speed_px));
+  const auto sampled = sample_query(query, route_);
+  Matrices matrices(route_);
+  const auto found = place::match_on_route(route_, query.walk.time_s, sampled, options_, std::ref(matrices));
+  ASSERT_EQ(found.matches.size(), sampled.frames.size());
+  EXPECT_GT(found.matches.size(), 30U);
+  EXPECT_EQ(found.sequence_length, 10);
+  EXPECT_GT(found.lines, 1);
+  // The costs that passed by are those of the stages by themselves.
+  ASSERT_THAT(matrices.cost, SizeIs(1));
+  place::CostMatrix costs =
+      place::cost_matrix(vo::patch_normalise(sampled.thumbnails, options_.patch),
+                         vo::patch_normalise(route_.traverses[0].thumbnails, options_.patch));
+  EXPECT_EQ(matrices.cost[0].values, costs.values);
+  place::enhance_contrast(costs, options_.enhancement);
+  EXPECT_EQ(matrices.enhanced[0].values, costs.values);
+  for (std::size_t q = 0; q < found.matches.size(); ++q) {
+    const auto& match = found.matches[q];
+    EXPECT_EQ(match.query_frame, static_cast<std::int64_t>(sampled.frames[q]));
+    EXPECT_EQ(match.query_time_s, query.walk.time_s[sampled.frames[q]]);
+    ASSERT_TRUE(match.place) << q;
+    EXPECT_EQ(match.place->traverse, "by day");
+    const auto& keyframe = route_.traverses[0].keyframes[match.place->keyframe];
+    EXPECT_EQ(match.place->frame, keyframe.frame);
+    EXPECT_EQ(match.place->time_s, keyframe.time_s);
+    EXPECT_EQ(match.place->distance_m, keyframe.distance_m);
+    EXPECT_EQ(match.accepted, match.score >= options_.accept_score);
+  }
+  // Keyframes of two walks lie at most half a spacing apart; a line of whole keyframes adds another half.
+  // Where less than a whole line is inside, or the path bends because the speed changes (251.3 px, with half
+  // a sequence on either side), a straight line is off by one more.
+  const double spacing = spacing_px(route_.traverses[0]);
+  for (const auto& match : found.matches) {
+    const double true_px = query.place_px[static_cast<std::size_t>(match.query_frame)];
+    const bool straight = !match.partial && std::abs(true_px - 251.3) > 5 * spacing;
+    EXPECT_NEAR(10 * *match.place->distance_m, true_px, (straight ? 1 : 2) * spacing) << match.query_frame;
+  }
+}
+
+TEST_F(RouteMatchingTest, FindsAWalkAmongCandidates) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  const auto exact = place::match_on_route(route_, query.walk.time_s, sampled, options_);
+  options_.candidate_use = place::CandidateUse::kAlways;
+  options_.candidates = {.sample = 8, .run = 8, .stretches = 1, .margin = 0};
+  Matrices matrices(route_);
+  const auto found = place::match_on_route(route_, query.walk.time_s, sampled, options_, std::ref(matrices));
+  std::size_t unlike = 0, left_out = 0;
+  for (std::size_t q = 0; q < exact.matches.size(); ++q)
+    unlike += exact.matches[q].place->keyframe != found.matches[q].place->keyframe ? 1 : 0;
+  EXPECT_LE(unlike, exact.matches.size() / 10);  // a neighbour where two are all but as good
+  for (const float value : matrices.cost[0].values) left_out += std::isinf(value) ? 1 : 0;
+  EXPECT_GT(left_out, 0U);
+}
+
+TEST_F(RouteMatchingTest, TheThresholdDecidesWhatIsAccepted) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  options_.accept_score = -1;
+  for (const auto& match : place::match_on_route(route_, query.walk.time_s, sampled, options_).matches)
+    EXPECT_TRUE(match.accepted);
+  options_.accept_score = 1000;
+  for (const auto& match : place::match_on_route(route_, query.walk.time_s, sampled, options_).matches)
+    EXPECT_FALSE(match.accepted);
+}
+
+TEST_F(RouteMatchingTest, FlagsMatchesOnPartOfALineAtTheEnds) {
+  const auto query = steady_walk(wall_, 0.5, 150, 400);
+  const auto found = place::match_on_route(route_, query.walk.time_s, sample_query(query, route_), options_);
+  // The walk lies well inside the reference, so only its own ends cut lines: terms are at -5 .. +4.
+  const std::size_t count = found.matches.size();
+  for (std::size_t q = 0; q < count; ++q) EXPECT_EQ(found.matches[q].partial, q < 5 || q + 4 >= count) << q;
+}
+
+TEST_F(RouteMatchingTest, TakesTheSurestOfSeveralTraverses) {
+  // A traverse of another wall knows nothing of this one; one along only the second half knows that.
+  add_traverse(route_, "elsewhere", steady_walk(Wall(kWallPx, 99), 0.5));
+  add_traverse(route_, "second half", steady_walk(wall_, 0.4, kWallPx / 2.0));
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  const auto sampled = sample_query(query, route_);
+  Matrices matrices(route_);
+  const auto found = place::match_on_route(route_, query.walk.time_s, sampled, options_, std::ref(matrices));
+  EXPECT_THAT(matrices.cost, SizeIs(3));
+  std::vector<place::RouteMatches> each;
+  for (const auto& traverse : route_.traverses) {
+    place::Route only = route_;
+    only.traverses = {traverse};
+    each.push_back(place::match_on_route(only, query.walk.time_s, sampled, options_));
+  }
+  for (std::size_t q = 0; q < found.matches.size(); ++q) {
+    const place::Match* surest = nullptr;
+    for (const auto& one : each) {
+      const auto& match = one.matches[q];
+      if (match.place && (surest == nullptr || match.score > surest->score)) surest = &match;
+    }
+    ASSERT_TRUE(surest != nullptr && found.matches[q].place);
+    EXPECT_EQ(found.matches[q].place->traverse, surest->place->traverse);
+    EXPECT_EQ(found.matches[q].place->keyframe, surest->place->keyframe);
+    EXPECT_EQ(found.matches[q].score, surest->score);
+    EXPECT_EQ(found.matches[q].partial, surest->partial);
+  }
+  EXPECT_EQ(share_found(found, query, 1.0 * spacing_px(route_.traverses[0])), 1);
+}
+
+TEST_F(RouteMatchingTest, AcceptsLittleOfAWalkThatWasNeverOnTheRoute) {
+  const Wall another(kWallPx, 77);
+  const auto here = steady_walk(wall_, 0.5, 100, 400), elsewhere = steady_walk(another, 0.5, 100, 400);
+  const auto mean_score = [&](const KnownWalk& query) {
+    const auto found =
+        place::match_on_route(route_, query.walk.time_s, sample_query(query, route_), options_);
+    double sum = 0;
+    for (const auto& match : found.matches) sum += match.score;
+    return sum / static_cast<double>(found.matches.size());
+  };
+  EXPECT_GT(mean_score(here), 2 * mean_score(elsewhere));
+}
+
+TEST_F(RouteMatchingTest, RefusesAReferenceShorterThanTheSequence) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  const std::size_t keyframes = route_.traverses[0].keyframes.size();
+  options_.search.length = static_cast<int>(keyframes);
+  EXPECT_NO_THROW(place::match_on_route(route_, query.walk.time_s, sampled, options_));
+  options_.search.length = static_cast<int>(keyframes) + 1;
+  EXPECT_THROW_WITH(place::match_on_route(route_, query.walk.time_s, sampled, options_), vo::Error,
+                    "traverse 'by day': has " + std::to_string(keyframes) + " keyframes, the sequence " +
+                        std::to_string(keyframes + 1));
+  route_.traverses.clear();
+  EXPECT_THROW(place::match_on_route(route_, query.walk.time_s, sampled, options_), std::invalid_argument);
+}
+
+TEST_F(RouteMatchingTest, AQueryShorterThanHalfASequenceIsNotFound) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  auto sampled = sample_query(query, route_);
+  sampled.frames.resize(4);
+  sampled.thumbnails = vo::select(query.walk.thumbnails, sampled.frames);
+  const auto found = place::match_on_route(route_, query.walk.time_s, sampled, options_);
+  ASSERT_THAT(found.matches, SizeIs(4));
+  for (const auto& match : found.matches) {
+    EXPECT_FALSE(match.place);
+    EXPECT_FALSE(match.accepted);
+    EXPECT_EQ(match.score, 0);
+  }
+}
+
+TEST_F(RouteMatchingTest, TakesTheSequenceLengthInMetres) {
+  const auto query = steady_walk(wall_, 0.5, 100, 300);
+  const auto sampled = sample_query(query, route_);
+  const double spacing_m = spacing_px(route_.traverses[0]) / 10;
+  options_.sequence_length_m = 14.4 * spacing_m;
+  EXPECT_EQ(place::match_on_route(route_, query.walk.time_s, sampled, options_).sequence_length, 14);
+  options_.sequence_length_m = 0.1 * spacing_m;
+  EXPECT_EQ(place::match_on_route(route_, query.walk.time_s, sampled, options_).sequence_length, 1);
+  add_traverse(route_, "not surveyed", steady_walk(wall_, 0.5), {}, false);
+  EXPECT_THROW_WITH(place::match_on_route(route_, query.walk.time_s, sampled, options_), vo::Error,
+                    "traverse 'not surveyed': has no surveyed distances");
+}
+
+TEST_F(RouteMatchingTest, TheOriginalsSearchLeavesTheEndsUnmatched) {
+  const auto query = steady_walk(wall_, 0.5, 100, 400);
+  options_.openseqslam = place::openseqslam::Options{};
+  options_.openseqslam->quirks = place::openseqslam::Quirks::original();
+  const auto found = place::match_on_route(route_, query.walk.time_s, sample_query(query, route_), options_);
+  EXPECT_EQ(found.sequence_length, 10);
+  EXPECT_EQ(found.lines, 0);
+  const std::size_t count = found.matches.size();
+  for (std::size_t q = 0; q < count; ++q) {
+    const auto& match = found.matches[q];
+    EXPECT_EQ(match.place.has_value(), q >= 5 && q + 5 < count) << q;
+    EXPECT_FALSE(match.partial);
+    // 1 - best / second: a surer match scores higher, as everywhere.
+    EXPECT_GE(match.score, 0);
+    EXPECT_LE(match.score, 1);
+  }
+  // But for the 10 at the ends; the original's place is off by up to a keyframe more.
+  EXPECT_EQ(share_found(found, query, 2 * spacing_px(route_.traverses[0])),
+            1 - 10.0 / static_cast<double>(count));
+}
+
+TEST_F(RouteMatchingTest, IsTheSameForAnyThreadCount) {
+  const auto query = steady_walk(wall_, 0.8, 100, 400);
+  const auto run = [&](int threads) {
+    vo::set_thread_count(threads);
+    return place::match_on_route(route_, query.walk.time_s, sample_query(query, route_), options_);
+  };
+  const auto one = run(1), four = run(4);
+  vo::set_thread_count(0);
+  ASSERT_EQ(one.matches.size(), four.matches.size());
+  for (std::size_t q = 0; q < one.matches.size(); ++q) {
+    EXPECT_EQ(one.matches[q].query_frame, four.matches[q].query_frame);
+    EXPECT_EQ(one.matches[q].place->keyframe, four.matches[q].place->keyframe);
+    EXPECT_EQ(one.matches[q].score, four.matches[q].score);
+  }
+}
+
+}  // namespace
