@@ -66,7 +66,7 @@ TEST(Arguments, HelpShowsTheEverydaySettingsAndHelpAllTheRest) {
     declared.settings(settings, {kMotion, kSearch, kGeneral});
     declared.footer("Examples");
     const std::string help = app.help();
-    EXPECT_THAT(help, HasSubstr("--sequence-length INT [10]"));
+    EXPECT_THAT(help, HasSubstr("--sequence-length INT=10"));
     EXPECT_THAT(help, HasSubstr("--enhance {standardise,local,none}"));
     if (all) {
       EXPECT_THAT(help, HasSubstr("--uniqueness-window"));
