@@ -540,7 +540,7 @@ class CliTest(unittest.TestCase):
 
     def test_the_default_configuration_is_current(self):
         self.assertEqual((SOURCE / "configs" / "default.toml").read_text(), check("config"))
-        for name in ("default", "indoor", "outdoor"):
+        for name in ("default",):
             check("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / name, "--sampling-n", "6",
                   "--config", SOURCE / "configs" / f"{name}.toml")
 

@@ -9,7 +9,7 @@
 
 /// The original OpenSeqSLAM (Sünderhauf, Neubert, Protzel 2013), reproduced to the bit, for comparison. Its
 /// arithmetic is in single precision and in the original's order. Nothing else in the library uses this; see
-/// `place/localiser.hpp` for our own road.
+/// `place/place.hpp` for our own search.
 namespace place::openseqslam {
 
 /// Ways of the original that are not in the paper it follows or that cost it accuracy, each by name. Off by
