@@ -1,6 +1,7 @@
 #include "command_line.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <dlfcn.h>
 #include <string_view>
 
@@ -14,6 +15,9 @@ int main(int argc, char** argv) {
     fmt::print("retrace {}\n", place::kVersion);
     return std::fflush(stdout) == 0 ? 0 : 1;
   }
+  // Read when the OpenMP runtime is loaded, which the module brings: its threads sleep while they wait, and
+  // leave the processor to those of the video decoder. What the user says goes before.
+  setenv("OMP_WAIT_POLICY", "passive", 0);
   void* const module = dlopen(RETRACE_COMMANDS, RTLD_LAZY);
   void* const run = module != nullptr ? dlsym(module, "retrace_run") : nullptr;
   if (run == nullptr) {

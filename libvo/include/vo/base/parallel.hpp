@@ -5,7 +5,8 @@
 
 namespace vo {
 
-/// Sets how many threads `parallel_for` uses; 0 means one per core. Throws `std::invalid_argument` below 0.
+/// Sets how many threads `parallel_for` uses; 0 means as many as OpenMP gives: one per core, or what
+/// OMP_NUM_THREADS says. Throws `std::invalid_argument` below 0.
 void set_thread_count(int threads);
 
 /// The number of threads `parallel_for` uses, at least 1.
@@ -16,15 +17,25 @@ int thread_count();
 /// Each index must write only to places of its own; the outcome is then the same for any number of threads. A
 /// nested call is shared with the threads that have nothing else to do. If calls throw, the exception of the
 /// smallest throwing index that was run is rethrown after all threads have stopped. This is the only place of
-/// the project that starts threads. They come from oneTBB, whose idle threads sleep: those of OpenMP
-/// (libgomp) spin, and so took a third of the processor time of `retrace build` from the video decoder's own
-/// threads.
+/// the project that starts threads.
+///
+/// The threads are OpenMP's. An outermost call opens a parallel region, and a call within it opens none: it
+/// lists its indices for the threads of the region, which sleep while nothing is listed. So an idle thread
+/// takes no processor time from a video decoder's own threads. Only after a region does the runtime choose
+/// how its threads wait for the next: libgomp's spin for some 3 ms and sleep then. The program `retrace` has
+/// them sleep at once, by setting OMP_WAIT_POLICY=passive before libgomp is loaded; who uses the library from
+/// another program gains the same (a few percent of processor time where regions follow each other closely)
+/// by setting that variable in the environment the program is started with.
+///
+/// ThreadSanitizer sees all that orders the work of threads, as it is done by a mutex of this project, but
+/// not how a region is entered, which happens within the runtime; that one function is left out of its view.
+/// So GCC's needs no suppressions; Clang's asks for TSAN_OPTIONS=ignore_noninstrumented_modules=1.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Calls `first()` and `second()`, at the same time where there are threads for it, and returns after both:
 /// the next frames are decoded while the last are worked on. `parallel_for` within either uses the threads
-/// that are free. If one throws, the other may not be started; if both do, the exception of `first` is
-/// rethrown.
+/// that are free, the caller's own too once its part is done. If one throws, the other may not be started; if
+/// both do, the exception of `first` is rethrown.
 void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second);
 
 }  // namespace vo

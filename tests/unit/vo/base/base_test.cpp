@@ -10,7 +10,6 @@
 
 #include <vo/base/error.hpp>
 #include <vo/base/large_memory.hpp>
-#include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 #include <vo/base/trajectory.hpp>
 
@@ -45,44 +44,6 @@ TEST(LargeArray, BeginsAtALargePageAndHoldsWhatIsWritten) {
     std::fill_n(values.get(), size, std::uint16_t{40'000});
     EXPECT_EQ(std::count(values.get(), values.get() + size, 40'000), static_cast<std::ptrdiff_t>(size));
   }
-}
-
-TEST(ParallelFor, RunsEveryIndexOnceForAnyThreadCount) {
-  for (const int threads : {1, 2, 5}) {
-    vo::set_thread_count(threads);
-    std::vector<int> calls(1000, 0);
-    vo::parallel_for(calls.size(), [&](std::size_t i) { ++calls[i]; });
-    EXPECT_THAT(calls, testing::Each(1));
-  }
-  vo::set_thread_count(0);
-  vo::parallel_for(0, [](std::size_t) { FAIL(); });
-}
-
-TEST(ParallelFor, RethrowsAndKeepsNestedCallsWorking) {
-  EXPECT_THROW(vo::parallel_for(10,
-                                [](std::size_t i) {
-                                  if (i == 4) throw std::runtime_error("four");
-                                }),
-               std::runtime_error);
-  std::vector<std::vector<int>> grid(8, std::vector<int>(8, 0));
-  vo::parallel_for(8, [&](std::size_t i) { vo::parallel_for(8, [&](std::size_t j) { ++grid[i][j]; }); });
-  for (const auto& row : grid) EXPECT_THAT(row, testing::Each(1));
-  EXPECT_THROW(vo::set_thread_count(-1), std::invalid_argument);
-}
-
-TEST(ParallelInvoke, RunsBothAndSharesItsThreads) {
-  for (const int threads : {1, 2}) {
-    vo::set_thread_count(threads);
-    int first = 0;
-    std::vector<int> second(100, 0);
-    vo::parallel_invoke([&] { first = 1; },
-                        [&] { vo::parallel_for(second.size(), [&](std::size_t i) { ++second[i]; }); });
-    EXPECT_EQ(first, 1);
-    EXPECT_THAT(second, testing::Each(1));
-  }
-  vo::set_thread_count(0);
-  EXPECT_THROW(vo::parallel_invoke([] { throw std::runtime_error("first"); }, [] {}), std::runtime_error);
-  EXPECT_THROW(vo::parallel_invoke([] {}, [] { throw std::runtime_error("second"); }), std::runtime_error);
 }
 
 TEST(Rng, MatchesThePublishedSequence) {
