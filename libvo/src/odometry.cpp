@@ -94,18 +94,20 @@ Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& 
   // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
   // work, little enough for 4K video.
   const std::size_t batch_size = 4 * static_cast<std::size_t>(thread_count());
-  std::vector<Frame> batch = read_batch(frames, batch_size);
-  while (!batch.empty()) {
-    std::vector<Frame> next;
-    parallel_invoke([&] { next = read_batch(frames, batch_size); },
-                    [&] { keep(batch, options, trackers, walk); });
-    batch = std::move(next);
-    if (progress && !progress({.stage = stage,
-                               .done = static_cast<std::int64_t>(walk.frames()),
-                               .total = frames.expected_frames()})) {
-      break;
+  keep_threads([&] {
+    std::vector<Frame> batch = read_batch(frames, batch_size);
+    while (!batch.empty()) {
+      std::vector<Frame> next;
+      parallel_invoke([&] { next = read_batch(frames, batch_size); },
+                      [&] { keep(batch, options, trackers, walk); });
+      batch = std::move(next);
+      if (progress && !progress({.stage = stage,
+                                 .done = static_cast<std::int64_t>(walk.frames()),
+                                 .total = frames.expected_frames()})) {
+        break;
+      }
     }
-  }
+  });
   if (walk.frames() < 2) {
     throw Error(name, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }

@@ -208,6 +208,15 @@ int thread_count() {
   return wanted > 0 ? wanted : std::max(1, omp_get_max_threads());
 }
 
+void keep_threads(const std::function<void()>& body) {
+  const int threads = thread_count();
+  if (threads == 1 || the_team != nullptr) return body();
+  const std::function<void(std::size_t)> once = [&](std::size_t) { body(); };
+  Loop loop{.count = 1, .chunk = 1, .body = once, .outer = the_loop};
+  run_in_region(loop, threads);
+  loop.failure.rethrow();
+}
+
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   const int threads = thread_count();
   // Enough parts for each thread that none waits long for the last, where there are many indices.

@@ -21,16 +21,21 @@ int thread_count();
 ///
 /// The threads are OpenMP's. An outermost call opens a parallel region, and a call within it opens none: it
 /// lists its indices for the threads of the region, which sleep while nothing is listed. So an idle thread
-/// takes no processor time from a video decoder's own threads. Only after a region does the runtime choose
-/// how its threads wait for the next: libgomp's spin for some 3 ms and sleep then. The program `retrace` has
-/// them sleep at once, by setting OMP_WAIT_POLICY=passive before libgomp is loaded; who uses the library from
-/// another program gains the same (a few percent of processor time where regions follow each other closely)
-/// by setting that variable in the environment the program is started with.
+/// takes no processor time from a video decoder's own threads. Only where a region begins and ends does the
+/// runtime choose how its threads wait for each other: libgomp's spin for some 3 ms and sleep then, which
+/// costs the more the less of the processor is free. The program `retrace` has them sleep at once, by setting
+/// OMP_WAIT_POLICY=passive before libgomp is loaded; who uses the library from another program gains the same
+/// by setting that variable in the environment in which the program is started. Calls that follow each other
+/// closely are best made within one `keep_threads`.
 ///
 /// ThreadSanitizer sees all that orders the work of threads, as it is done by a mutex of this project, but
 /// not how a region is entered, which happens within the runtime; that one function is left out of its view.
 /// So GCC's needs no suppressions; Clang's asks for TSAN_OPTIONS=ignore_noninstrumented_modules=1.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// Calls `body()` with the threads at hand until it returns: calls of `parallel_for` and `parallel_invoke`
+/// within it share one region. What `body` throws is thrown on.
+void keep_threads(const std::function<void()>& body);
 
 /// Calls `first()` and `second()`, at the same time where there are threads for it, and returns after both:
 /// the next frames are decoded while the last are worked on. `parallel_for` within either uses the threads

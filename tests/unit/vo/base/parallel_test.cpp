@@ -53,6 +53,20 @@ TEST_P(Parallel, InvokesBothHoweverDeep) {
   EXPECT_EQ(fibonacci(fibonacci, 12), 144);
 }
 
+TEST_P(Parallel, KeepsThreadsForTheCallsWithin) {
+  std::vector<int> calls(100, 0);
+  const auto once = [&](std::size_t i) { ++calls[i]; };
+  vo::keep_threads([&] {
+    vo::parallel_for(calls.size(), once);
+    vo::keep_threads([&] { vo::parallel_for(calls.size(), once); });
+    vo::parallel_invoke([&] { vo::parallel_for(calls.size(), once); }, [] {});
+  });
+  EXPECT_THAT(calls, Each(3));
+  EXPECT_THROW(vo::keep_threads([] { throw std::runtime_error("body"); }), std::runtime_error);
+  vo::parallel_for(calls.size(), once);
+  EXPECT_THAT(calls, Each(4));
+}
+
 TEST_P(Parallel, WorksFromSeveralThreadsOfTheCallersOwn) {
   std::vector<std::size_t> sums(3, 0);
   std::vector<std::thread> callers;
