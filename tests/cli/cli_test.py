@@ -693,6 +693,17 @@ class CliTest(unittest.TestCase):
         self.refused("compare", one, two, "--names", "a", "-o", self.folder / "f", says="one for each run")
         self.refused("compare", one, "-o", self.folder / "g", says="2", code=2)
 
+    # ---- the libraries ----
+
+    def test_the_example_of_the_readme_finds_a_walk(self):
+        check("simulate", "--scene", "corridor", "--length-m", "25", "--seed", "2", "-o", self.folder / "walk")
+        walk, truth = self.folder / "walk" / "walk.mp4", self.folder / "walk" / "truth.csv"
+        done = subprocess.run([os.environ["RETRACE_EXAMPLE"], walk, truth, walk, truth], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("max-F1 1.000", done.stdout)  # it is the same walk
+        self.assertGreater((self.folder / "route.db").stat().st_size, 0)
+        self.assertTrue((self.folder / "night.tum").exists())
+
     # ---- help ----
 
     def test_help_shows_units_defaults_and_examples(self):
