@@ -73,6 +73,13 @@ void enhance_locally(std::span<float> row, std::size_t half) {
   }
 }
 
+/// 1 / sqrt(share * variance + 1 - share) from 1 / deviation, 0 where there is none.
+double drawn_to_one(double inverse_deviation, double share) {
+  if (share == 1) return inverse_deviation;
+  const double variance = inverse_deviation > 0 ? 1 / (inverse_deviation * inverse_deviation) : 0;
+  return 1 / std::sqrt(share * variance + 1 - share);
+}
+
 float standard_score(float value, double mean, double inverse_deviation) {
   return static_cast<float>((value - mean) * inverse_deviation);
 }
@@ -83,6 +90,8 @@ ContrastEnhancer::ContrastEnhancer(std::size_t queries, std::size_t references,
                                    const ContrastEnhancementOptions& options)
     : queries_(queries), references_(references), options_(options) {
   if (options.window < 2) throw std::invalid_argument("enhance_contrast: window must be >= 2");
+  if (!(options.prior_queries >= 0))
+    throw std::invalid_argument("enhance_contrast: prior_queries must be >= 0");
   if (options.method != Enhancement::kStandardise) return;
   mean_.resize(queries);
   inverse_deviation_.resize(queries);
@@ -158,10 +167,11 @@ void ContrastEnhancer::enhance(const Costs& costs) const {
       }
     }
     const auto queries = static_cast<double>(queries_);
+    const double share = queries / (queries + options_.prior_queries);
     for (std::size_t r = 0; r < count; ++r) {
       const Moments moments{mean[r], inverse[r]};
-      mean[r] = moments.sum / queries;
-      inverse[r] = moments.inverse_deviation(queries, 0);
+      mean[r] = share * moments.sum / queries;
+      inverse[r] = drawn_to_one(moments.inverse_deviation(queries, 0), share);
     }
     for (std::size_t q = 0; q < queries_; ++q) {
       float* row = costs.row(q).data() + begin;
@@ -174,7 +184,11 @@ CostRange ContrastEnhancer::range() const {
   if (queries_ == 0 || references_ == 0) return {};
   if (options_.method == Enhancement::kStandardise) {
     // No value of n can be further than sqrt(n - 1) deviations from their mean; one more for rounding.
-    return {.centre = 0, .largest = std::sqrt(static_cast<double>(queries_))};
+    const auto queries = static_cast<double>(queries_), references = static_cast<double>(references_);
+    const double share = queries / (queries + options_.prior_queries);
+    // With a prior, |x - m| / sqrt(share * variance) and (1 - share) |m| / sqrt(1 - share), where the mean m
+    // is no further from 0 than a value of n references can be.
+    return {.centre = 0, .largest = std::sqrt(queries / share) + std::sqrt((1 - share) * references)};
   }
   const double centre = sum_ / (static_cast<double>(queries_) * static_cast<double>(references_));
   return {.centre = centre, .largest = std::max(most_ - centre, centre - least_)};

@@ -1,14 +1,11 @@
 #include "place/match/cost_matrix.hpp"
 
 #include "match/kernels/absolute_difference.hpp"
+#include "match/second_level_cache.hpp"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 #include <stdexcept>
-#include <unistd.h>
 
-#include <vo/base/large_memory.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/image/patch_normalisation.hpp>
 
@@ -23,12 +20,7 @@ constexpr std::size_t blocks_of(std::size_t size, std::size_t count) {
 
 /// Queries that stay in the second-level cache while references stream past: as many as fill half of it.
 std::size_t band_queries(std::size_t query_bytes) {
-  static const std::size_t cache = [] {
-    constexpr long kUsual = 1L << 19U;
-    const long bytes = sysconf(_SC_LEVEL2_CACHE_SIZE);
-    return static_cast<std::size_t>(bytes > 0 ? bytes : kUsual);
-  }();
-  return std::max<std::size_t>(1, cache / 2 / query_bytes);
+  return std::max<std::size_t>(1, second_level_cache() / 2 / query_bytes);
 }
 
 /// Columns [first, first + width) of every image, `variants` times with the first column one further on.
@@ -47,38 +39,8 @@ vo::ImageStack columns_of(const vo::ImageStack& images, int first, int width, in
 
 }  // namespace
 
-CostMatrix make_cost_matrix(std::size_t queries, std::size_t references) {
-  CostMatrix matrix{.queries = queries, .references = references, .values = {}};
-  vo::resize_populated(matrix.values, queries * references);
-  return matrix;
-}
-
-CostRange range_of(std::span<const float> costs) {
-  // Eight of each at a time, which compilers turn into vectors.
-  constexpr std::size_t kLanes = 8;
-  if (costs.empty()) return {};
-  std::array<double, kLanes> sums{};
-  std::array<float, kLanes> least, most;
-  least.fill(costs.front());
-  most.fill(costs.front());
-  const std::size_t whole = costs.size() - costs.size() % kLanes;
-  const auto take = [&](std::size_t i, std::size_t k) {
-    sums[k] += costs[i + k];
-    least[k] = costs[i + k] < least[k] ? costs[i + k] : least[k];
-    most[k] = costs[i + k] > most[k] ? costs[i + k] : most[k];
-  };
-  for (std::size_t i = 0; i < whole; i += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) take(i, k);
-  }
-  for (std::size_t k = 0; whole + k < costs.size(); ++k) take(whole, k);
-  const double centre = std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(costs.size());
-  return {.centre = centre,
-          .largest = std::max(*std::ranges::max_element(most) - centre,
-                              centre - static_cast<double>(*std::ranges::min_element(least)))};
-}
-
-CostSource::CostSource(const vo::ImageStack& queries, const vo::ImageStack& references,
-                       const CostOptions& options)
+ThumbnailCosts::ThumbnailCosts(const vo::ImageStack& queries, const vo::ImageStack& references,
+                               const CostOptions& options)
     : queries_(queries.size()), whole_(&queries), whole_references_(&references) {
   if (queries.width != references.width || queries.height != references.height) {
     throw std::invalid_argument("cost_matrix: query and reference descriptors differ in size");
@@ -94,12 +56,12 @@ CostSource::CostSource(const vo::ImageStack& queries, const vo::ImageStack& refe
   shifted_ = columns_of(queries, 0, width, 2 * shift + 1);
 }
 
-float CostSource::unit() const {
+float ThumbnailCosts::unit() const {
   return 1.0F /
          (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(reference_images().image_size()));
 }
 
-void CostSource::compute(const Costs& block) const {
+void ThumbnailCosts::compute(const Costs& block) const {
   if (block.queries == 0 || block.references == 0) return;
   const std::size_t pixels = reference_images().image_size();
   const kernels::AbsoluteDifferenceKernel kernel = kernels::absolute_difference();
@@ -135,10 +97,7 @@ void CostSource::compute(const Costs& block) const {
 
 CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
                        const CostOptions& options) {
-  const CostSource costs(queries, references, options);
-  CostMatrix matrix = make_cost_matrix(costs.queries(), costs.references());
-  costs.compute(block_of(matrix));
-  return matrix;
+  return cost_matrix(ThumbnailCosts(queries, references, options));
 }
 
 }  // namespace place

@@ -20,12 +20,17 @@ enum class Enhancement {
 struct ContrastEnhancementOptions {
   Enhancement method = Enhancement::kStandardise;
   int window = 10;  ///< keyframes, `kLocal`: neighbours up to window / 2 on either side (SeqSLAM: R = 10)
+  /// `kStandardise`: a reference's mean and variance over few queries say little of it, so they are drawn
+  /// to 0 and 1, which rows leave it with, as if so many more queries had been seen: with w = queries /
+  /// (queries + prior_queries), (x - w mean) / sqrt(w variance + 1 - w). 0 takes them as they are.
+  double prior_queries = 0;
 };
 
 /// Enhances the contrast of a cost matrix, in place. Values stay "lower is more alike", and are in standard
 /// deviations (but for `kNone`). `kLocal` takes the sample deviation over the window cut at the ends of the
 /// reference (Milford and Wyeth 2012, Eq. 3; OpenSeqSLAM). Where there is no deviation (one reference, equal
-/// costs) the value is 0: neither alike nor unlike. Throws `std::invalid_argument` if window < 2. O(queries *
+/// costs) the value is 0: neither alike nor unlike. Throws `std::invalid_argument` if window < 2 or
+/// prior_queries < 0. O(queries *
 /// references), in parallel; sums in double in a fixed order.
 void enhance_contrast(CostMatrix& costs, const ContrastEnhancementOptions& options = {});
 
@@ -36,7 +41,7 @@ class ContrastEnhancer {
   static constexpr std::size_t kPart = 512;  ///< a surveyed part has a multiple of so many references ...
   static constexpr std::size_t kAlign = 32;  ///< ... an enhanced one begins at a multiple of so many
 
-  /// Throws `std::invalid_argument` if window < 2. Memory: 16 bytes for each query.
+  /// Throws `std::invalid_argument` if window < 2 or prior_queries < 0. Memory: 16 bytes for each query.
   ContrastEnhancer(std::size_t queries, std::size_t references,
                    const ContrastEnhancementOptions& options = {});
 

@@ -87,6 +87,42 @@ TEST(EnhanceStandardise, EqualsTheDefinition) {
   }
 }
 
+TEST(EnhanceStandardise, WithAPriorDrawsColumnsTowardsDoingNothing) {
+  constexpr std::size_t kQueries = 9, kReferences = 150;
+  constexpr double kPrior = 27, kShare = 0.25;  // 9 / (9 + 27)
+  const auto costs = random_costs(kQueries, kReferences, 2);
+  std::vector<std::vector<double>> scores(kQueries);
+  for (std::size_t q = 0; q < kQueries; ++q) {
+    const std::vector<double> row(costs.row(q).begin(), costs.row(q).end());
+    for (const double value : row) scores[q].push_back(standard_score(value, row, 0));
+  }
+  auto result = costs;
+  const place::ContrastEnhancementOptions options{.prior_queries = kPrior};
+  place::enhance_contrast(result, options);
+  place::ContrastEnhancer enhancer(kQueries, kReferences, options);
+  enhancer.survey(block_of(costs), kReferences);
+  for (std::size_t r = 0; r < kReferences; ++r) {
+    double mean = 0, variance = 0;
+    for (const auto& row : scores) mean += row[r] / kQueries;
+    for (const auto& row : scores) variance += (row[r] - mean) * (row[r] - mean) / kQueries;
+    for (std::size_t q = 0; q < kQueries; ++q) {
+      EXPECT_NEAR(result.at(q, r), (scores[q][r] - kShare * mean) / std::sqrt(kShare * variance + 1 - kShare),
+                  kFloatRounding);
+      EXPECT_LE(std::abs(result.at(q, r)), enhancer.range().largest);
+    }
+  }
+}
+
+TEST(EnhanceStandardise, OfOneQueryWithAPriorIsItsStandardScore) {
+  // Alone, a query has no deviation over the queries, and without a prior nothing is left of it.
+  const auto costs = random_costs(1, 40, 6);
+  auto result = costs;
+  place::enhance_contrast(result, {.prior_queries = 1e9});
+  const std::vector<double> row(costs.row(0).begin(), costs.row(0).end());
+  for (std::size_t r = 0; r < 40; ++r)
+    EXPECT_NEAR(result.at(0, r), standard_score(row[r], row, 0), kFloatRounding);
+}
+
 TEST(EnhanceStandardise, TakesOutWhatAQueryOrAReferenceHasInGeneral) {
   // A dark query (all costs larger, of larger spread) changes nothing.
   const auto costs = random_costs(8, 30, 3);
@@ -218,6 +254,7 @@ TEST(EnhanceContrast, IsTheSameForAnyThreadCount) {
 TEST(EnhanceContrast, RefusesAWindowWithoutNeighbours) {
   auto costs = random_costs(2, 2, 8);
   EXPECT_THROW(place::enhance_contrast(costs, {.window = 1}), std::invalid_argument);
+  EXPECT_THROW(place::enhance_contrast(costs, {.prior_queries = -1}), std::invalid_argument);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class CostCacheTest : public testing::Test {
 
   vo::ImageStack queries_ = random_images(16, 8, kQueries, 1),
                  references_ = random_images(16, 8, kReferences, 2);
-  place::CostSource source_{queries_, references_};
+  place::ThumbnailCosts source_{queries_, references_};
   place::CostMatrix true_ = place::cost_matrix(queries_, references_);
   place::CostMatrix kept_ = place::cost_matrix(queries_, random_images(16, 8, kReferences, 3));
 };

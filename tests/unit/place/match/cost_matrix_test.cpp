@@ -102,7 +102,7 @@ TEST(CostSource, GivesBlocksOfTheMatrix) {
   const auto queries = random_images(8, 4, 23, 1), references = random_images(8, 4, 300, 2);
   for (const int most : {0, 2}) {
     const auto matrix = place::cost_matrix(queries, references, {.max_shift_px = most});
-    const place::CostSource source(queries, references, {.max_shift_px = most});
+    const place::ThumbnailCosts source(queries, references, {.max_shift_px = most});
     for (std::size_t q = 0; q < 23; q += 7) {
       for (std::size_t r = 0; r < 300; r += 130) {
         const std::size_t tall = std::min<std::size_t>(7, 23 - q), wide = std::min<std::size_t>(130, 300 - r);

@@ -84,7 +84,7 @@ TEST_F(RouteMatchingTest, FindsAWalkAtAnotherSpeed) {
   ASSERT_THAT(matrices.cost, SizeIs(1));
   place::CostMatrix costs =
       place::cost_matrix(vo::patch_normalise(sampled.thumbnails, options_.patch),
-                         vo::patch_normalise(route_.traverses[0].thumbnails, options_.patch));
+                         vo::patch_normalise(*place::thumbnails_of(route_.traverses[0]), options_.patch));
   EXPECT_EQ(matrices.cost[0].values, costs.values);
   place::enhance_contrast(costs, options_.enhancement);
   EXPECT_EQ(matrices.enhanced[0].values, costs.values);
@@ -208,6 +208,7 @@ TEST_F(RouteMatchingTest, AQueryShorterThanHalfASequenceIsNotFound) {
   auto sampled = sample_query(query, route_);
   sampled.frames.resize(4);
   sampled.thumbnails = vo::select(query.walk.thumbnails, sampled.frames);
+  sampled.descriptors = {sampled.thumbnails};
   const auto found = place::match_on_route(route_, query.walk.time_s, sampled, options_);
   ASSERT_THAT(found.matches, SizeIs(4));
   for (const auto& match : found.matches) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "place/describe/float_rows.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace place {
+
+/// A vocabulary of local descriptors: the centres of `count` clusters, by FLANN's hierarchical k-means in one
+/// level (k-means++ for the start). Fewer where there are fewer distinct vectors than that.
+///
+/// The same vectors and seed give the same words; the C library's random numbers (`std::rand`), which FLANN
+/// draws from, are begun anew by it. Throws `std::invalid_argument` without vectors or for a count of 0.
+/// O(20 * vectors * count * width).
+FloatRows learn_words(const FloatRows& vectors, std::size_t count, std::uint32_t seed);
+
+/// The index of the word nearest to each vector; of equals the first. O(vectors * words * width), as one
+/// product of matrices. Throws `std::invalid_argument` without words or for words of another size.
+std::vector<std::size_t> nearest_words(const FloatRows& vectors, const FloatRows& words);
+
+}  // namespace place

@@ -1,0 +1,81 @@
+#include "place/describe/npy.hpp"
+
+#include "support/temporary_folder.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vo/base/error.hpp>
+
+namespace {
+
+using place::FloatRows;
+using place::read_npy;
+using place::write_npy;
+using testing::ElementsAre;
+
+/// A file as NumPy writes it: the header filled up with spaces to a multiple of 64 bytes.
+std::string npy(const std::string& dictionary, const std::string& data) {
+  std::string header = dictionary;
+  header.append(63 - (10 + header.size()) % 64, ' ');
+  header += '\n';
+  return std::string("\x93NUMPY\x01", 7) + '\0' + static_cast<char>(header.size()) + '\0' + header + data;
+}
+
+class Npy : public testing::Test {
+ protected:
+  test_support::TemporaryFolder folder_;
+};
+
+TEST_F(Npy, ReadsBytes) {
+  const auto path = folder_.write("a.npy", npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3), }",
+                                               std::string("\x01\x02\x03\xff\x00\x05", 6)));
+  const FloatRows rows = read_npy(path);
+  EXPECT_EQ(rows.width, 3U);
+  EXPECT_THAT(rows.values, ElementsAre(1, 2, 3, 255, 0, 5));
+}
+
+TEST_F(Npy, ReadsHalves) {
+  // 0x3c00 is 1, 0xc000 is -2, 0x3800 is 0.5.
+  const auto path = folder_.write("a.npy", npy("{'descr': '<f2', 'fortran_order': False, 'shape': (1, 3), }",
+                                               std::string("\x00\x3c\x00\xc0\x00\x38", 6)));
+  EXPECT_THAT(read_npy(path).values, ElementsAre(1, -2, 0.5));
+}
+
+TEST_F(Npy, ReadsWhatItWrites) {
+  const FloatRows rows{.width = 2, .values = {1.5F, -3e8F, 0, 7}};
+  write_npy(folder_ / "f.npy", rows);
+  EXPECT_EQ(read_npy(folder_ / "f.npy").values, rows.values);
+  write_npy(folder_ / "b.npy", std::vector<std::uint8_t>{9, 8, 7, 6}, 4);
+  EXPECT_THAT(read_npy(folder_ / "b.npy").values, ElementsAre(9, 8, 7, 6));
+  EXPECT_EQ(test_support::read_file(folder_ / "b.npy").size(), 128U + 4U);  // the header is padded
+}
+
+TEST_F(Npy, NoRowsAreNone) {
+  write_npy(folder_ / "e.npy", FloatRows{.width = 5, .values = {}});
+  EXPECT_EQ(read_npy(folder_ / "e.npy").size(), 0U);
+  EXPECT_THROW(write_npy(folder_ / "e.npy", std::vector<std::uint8_t>(5), 3), std::invalid_argument);
+}
+
+TEST_F(Npy, SaysWhatIsWrong) {
+  const auto refused = [&](const std::string& content, const char* why) {
+    const auto path = folder_.write("bad.npy", content);
+    EXPECT_THROW_WITH(read_npy(path), vo::Error, why);
+  };
+  EXPECT_THROW_WITH(read_npy(folder_ / "none.npy"), vo::Error, "cannot be read");
+  refused("frame,time_s", "is no .npy file");
+  refused(npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1), }", std::string(8, '\0')),
+          "type '<f8'");
+  refused(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (1, 1), }", std::string(4, '\0')), "Fortran");
+  refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (4,), }", std::string(16, '\0')),
+          "two dimensions");
+  refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }", std::string(15, '\0')),
+          "15 bytes");
+  refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 0), }", ""), "0 bytes");
+}
+
+}  // namespace
