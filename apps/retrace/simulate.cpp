@@ -87,6 +87,10 @@ void add_walk_options(Arguments& arguments, simulate::Options& walk) {
       "focus, "
       "turned aside and back, before a blank wall [SSS Fig. 9]");
   add(arguments, kCamera, "--failure-s", walk.failure_s, "seconds that each lasts");
+  add(arguments, kCamera, "--camera-yaw-deg", walk.camera_yaw_deg,
+      "degrees that the camera is turned to the right");
+  add(arguments, kCamera, "--camera-pitch-deg", walk.camera_pitch_deg,
+      "degrees that the camera is turned upwards");
   add(arguments, kCamera, "--fov-deg", walk.fov_deg, "degrees from left to right [PVO 5.3]");
   add(arguments, kCamera, "--frame-rate-hz", walk.frame_rate_hz, "frames per second [PVO 5.1]");
   add(arguments, kCamera, "--width", walk.size.width, "pixels [PVO 5.1]");

@@ -26,6 +26,8 @@ void validate(const Options& options) {
   const double room_m = options.scene == Scene::kStreet ? 1.5 : 0.6;
   check("length-m", options.length_m, 5, 5000, "m");
   check("lateral-m", options.lateral_m, -room_m, room_m, "m");
+  check("camera-yaw-deg", options.camera_yaw_deg, -90, 90, "degrees");
+  check("camera-pitch-deg", options.camera_pitch_deg, -45, 45, "degrees");
   check("people", options.people, 0, 1000, "");
   check("detour-m", options.detour_m, 0, kMaxDetour_m, "m");
   check("start-m", options.start_m, 0, options.length_m - 1, "m");

@@ -19,6 +19,8 @@ struct Options {
   std::uint64_t seed = 1;       ///< the route and everything along it
   std::uint64_t gait_seed = 1;  ///< the walker, the `varied` and `stops` speeds, passers-by and sensor noise
   double lateral_m = 0;         ///< how far right of the route the walker keeps
+  double camera_yaw_deg = 0;    ///< the camera looks so far to the right of where the walker faces
+  double camera_pitch_deg = 0;  ///< and so far upwards, beside how this walker wears it
   int people = 0;               ///< passers-by met along the route
   double detour_m = 0;          ///< walked in all into a side street about half-way, and back; 0: none
   double start_m = 0;           ///< where on the route the walk begins

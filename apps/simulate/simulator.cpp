@@ -93,7 +93,8 @@ Camera WalkSimulator::camera_at(double time_s) const {
   camera.size = options_.size;
   camera.focal_px = options_.size.width / (2 * std::tan(options_.fov_deg * kDegree / 2));
   camera.world_from_camera.linear() =
-      camera_axes(chest.heading_rad + pan + s * swing.yaw_rad, walker_.mount_pitch_rad + s * swing.pitch_rad,
+      camera_axes(chest.heading_rad + options_.camera_yaw_deg * kDegree + pan + s * swing.yaw_rad,
+                  walker_.mount_pitch_rad + options_.camera_pitch_deg * kDegree + s * swing.pitch_rad,
                   walker_.mount_roll_rad + s * swing.roll_rad);
   camera.world_from_camera.translation() << chest.x_m, chest.y_m, walker_.camera_height_m + s * swing.up_m;
   return camera;

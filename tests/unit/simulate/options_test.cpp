@@ -30,6 +30,8 @@ TEST(SimulateOptions, RefusesEveryFieldOutOfRange) {
       {"length-m", [](Options& o) { o.length_m = std::nan(""); }},
       {"lateral-m", [](Options& o) { o.lateral_m = 5; }},
       {"lateral-m", [](Options& o) { o.scene = Scene::kCorridor, o.lateral_m = -1; }},
+      {"camera-yaw-deg", [](Options& o) { o.camera_yaw_deg = 120; }},
+      {"camera-pitch-deg", [](Options& o) { o.camera_pitch_deg = -60; }},
       {"people", [](Options& o) { o.people = -1; }},
       {"detour-m", [](Options& o) { o.detour_m = 100; }},
       {"start-m", [](Options& o) { o.start_m = 120; }},

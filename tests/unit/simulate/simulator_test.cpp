@@ -153,5 +153,28 @@ TEST(WalkSimulator, AnotherWalkerSeesTheSameStreet) {
             walk.camera(0).world_from_camera.translation().z());
 }
 
+TEST(WalkSimulator, TurnsTheCameraAndNotTheWalker) {
+  Options options = short_walk(Scene::kStreet, Condition::kDay);
+  options.swing = 0;
+  const WalkSimulator straight(options);
+  options.camera_yaw_deg = 10;
+  const WalkSimulator right(options);
+  options.camera_yaw_deg = 0;
+  options.camera_pitch_deg = -5;
+  const WalkSimulator down(options);
+  const auto forward = [](const WalkSimulator& walk) {
+    return Eigen::Vector3d(walk.camera(20).world_from_camera.linear().col(2));
+  };
+  const auto yaw = [&](const WalkSimulator& walk) {
+    return std::atan2(forward(walk).x(), forward(walk).y());
+  };
+  const auto pitch = [&](const WalkSimulator& walk) { return std::asin(forward(walk).z()); };
+  EXPECT_NEAR(yaw(right) - yaw(straight), 10 * kDegree, 1e-9);
+  EXPECT_NEAR(pitch(right) - pitch(straight), 0, 1e-9);
+  EXPECT_NEAR(pitch(down) - pitch(straight), -5 * kDegree, 1e-9);
+  EXPECT_EQ(right.truth(20).heading_deg, straight.truth(20).heading_deg);
+  EXPECT_EQ(right.truth(20).x_m, straight.truth(20).x_m);
+}
+
 }  // namespace
 }  // namespace simulate
