@@ -124,7 +124,7 @@ std::function<void()> declare_build(Arguments& arguments) {
       .excludes(truth)
       .excludes(trajectory.excludes(truth));
   using enum place::SettingGroup;
-  arguments.settings(options->settings, {kReading, kMotion, kOdometry, kGeneral});
+  arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral});
   arguments.common(options->common);
   arguments.footer(
       "Examples:\n"

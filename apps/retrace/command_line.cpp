@@ -56,6 +56,8 @@ constexpr std::array kCommands{
     CommandEntry{"compare", "precision and recall of several runs of one walk, and how sure they are",
                  declare_compare},
     CommandEntry{"inspect", "show what is in a route database", declare_inspect},
+    CommandEntry{"describe", "write the descriptors of a walk's keyframes, for other programs",
+                 declare_describe},
     CommandEntry{"odometry", "steps, headings and the trajectory of a walk", declare_odometry},
     CommandEntry{"evaluate-odometry", "steps and trajectory of a walk against the truth",
                  declare_evaluate_odometry},

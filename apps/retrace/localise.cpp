@@ -78,7 +78,7 @@ std::function<void()> declare_localise(Arguments& arguments) {
       "--save-matrices", options->save_matrices,
       "write the cost matrix and the enhanced one as D.csv and DD.csv, a line for each query keyframe");
   using enum place::SettingGroup;
-  arguments.settings(options->settings, {kReading, kMotion, kOdometry, kSearch, kGeneral});
+  arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral});
   arguments.common(options->common);
   arguments.footer(
       "What is not given comes from the route database.\n"

@@ -167,7 +167,7 @@ std::function<void()> declare_sweep(Arguments& arguments) {
               "NAME=a,b,c: any further setting of sampling or search; may be repeated")
       .group("Swept");
   using enum place::SettingGroup;
-  arguments.settings(options->settings, {kReading, kMotion, kOdometry, kSearch, kGeneral},
+  arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral},
                      {"motion", "sequence-length", "search-range-rad", "compat", "sequence-length-m",
                       "motion-file", "motion-file-start-s", "motion-file-gap-s"});
   arguments.common(options->common);

@@ -45,8 +45,7 @@ Sampled sample(const Walks& walks, const place::Settings& given) {
   for (const place::Keyframe& keyframe : reference.keyframes)
     sampled.reference_frames.push_back(keyframe.frame);
   const place::RouteMatchingOptions& matching = options.matching;
-  sampled.cost = place::cost_matrix(vo::patch_normalise(query.thumbnails, matching.patch),
-                                    vo::patch_normalise(reference.thumbnails, matching.patch), matching.cost);
+  sampled.cost = place::cost_matrix_on_route(query, reference, matching);
   return sampled;
 }
 
@@ -189,7 +188,10 @@ class Sweep {
     place::CostMatrix enhanced;
     if (sampled) {
       enhanced = sampled->cost;
-      place::enhance_contrast(enhanced, stages(missing_[begin]).matching.enhancement);
+      const place::RouteMatchingOptions matching = stages(missing_[begin]).matching;
+      place::ContrastEnhancementOptions enhancement = matching.enhancement;
+      enhancement.prior_queries = place::prior_queries_of(matching);
+      place::enhance_contrast(enhanced, enhancement);
     }
     const std::size_t together = 4 * static_cast<std::size_t>(vo::thread_count());
     for (; begin < end; begin += together) {

@@ -33,7 +33,8 @@ void check_read_with(const StageOptions& options, const vo::Walk& walk) {
   const bool same_size = walk.thumbnails.width == options.walk.thumbnail.width &&
                          walk.thumbnails.height == options.walk.thumbnail.height;
   const bool tracked = !options.walk.track_features || walk.tracked.size() == walk.frames();
-  if (!same_size || !tracked)
+  const bool recorded = walk.records.size() == options.walk.recorders.size();
+  if (!same_size || !tracked || !recorded)
     throw std::invalid_argument("a walk read with the route's settings expected: place::read");
 }
 
@@ -120,6 +121,7 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
   if (traverses.empty()) {
     route.metric = sampled.metric;
     route.unit = sampled.unit;
+    route.learned = sampled.learned;
   }
   AddedTraverse added{static_cast<std::size_t>(old - traverses.begin()), sampled.scale, sampled.warnings};
   if (old == traverses.end()) {

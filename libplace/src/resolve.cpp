@@ -47,6 +47,7 @@ bool serves(Purpose purpose, const Setting& setting) {
     for (const std::string_view sampling : {"every", "spacing-m", "sampling-n", "tie-scale"})
       if (setting.name == sampling) return false;
   }
+  if (purpose == Purpose::kOdometry && setting.group == SettingGroup::kDescribing) return false;
   return setting.group != SettingGroup::kSearch;
 }
 
@@ -87,7 +88,7 @@ void check_together(const Settings& settings) {
   if (settings.v_min && *settings.v_min > *settings.v_max)
     throw vo::Error("v-min", fmt::format("is {} and v-max {}", *settings.v_min, *settings.v_max),
                     "v-min <= v-max");
-  if (settings.max_shift_px && settings.thumbnail_width &&
+  if (settings.max_shift_px && is(settings.descriptor, "thumbnail") && settings.thumbnail_width &&
       2 * *settings.max_shift_px >= *settings.thumbnail_width) {
     throw vo::Error("max-shift-px", fmt::format("is {}", *settings.max_shift_px),
                     "less than half of thumbnail-width");

@@ -132,6 +132,8 @@ std::string_view name_of(SettingGroup group) {
   switch (group) {
     case SettingGroup::kReading:
       return "Reading";
+    case SettingGroup::kDescribing:
+      return "Describing";
     case SettingGroup::kMotion:
       return "Motion and sampling";
     case SettingGroup::kOdometry:
@@ -212,7 +214,12 @@ bool has_effect(const Settings& settings, const Setting& setting, std::string* w
                                   : differs ? condition.substr(0, equals - 1)
                                             : condition.substr(0, equals);
     const std::optional<std::string> value = text_of(settings, setting_named(name));
-    const bool among = !absent && value && is_one_of(*value, condition.substr(equals + 1));
+    bool among = false;
+    if (!absent && value) {
+      for_each_part(*value, '+', [&](std::string_view part) {
+        among = among || is_one_of(part, condition.substr(equals + 1));
+      });
+    }
     holds = absent ? !value : among != differs;
     if (holds || why_not == nullptr) return;
     *why_not = absent  ? fmt::format("{} is given", name)

@@ -1,9 +1,16 @@
 #include "place/stage_options.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <initializer_list>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include <vo/base/error.hpp>
 #include <vo/io/camera_calibration.hpp>
 
 namespace place {
@@ -44,6 +51,59 @@ void put_reading(const Settings& s, StageOptions& options) {
              {{"grid", vo::PatchShape::kGrid}, {"window", vo::PatchShape::kWindow}});
   put(s.patch_min_contrast, patch.min_contrast);
   options.sampling.motion.visual.patch = patch;
+}
+
+/// Numbers with a character between them, as many as there are in `target`.
+template <typename Number, std::size_t count>
+void put_numbers(std::string_view name, const std::optional<std::string>& text, char between,
+                 std::array<Number, count>& target) {
+  if (!text) return;
+  const char* at = text->data();
+  const char* const end = at + text->size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [after, error] = std::from_chars(at, end, target[i]);
+    const bool followed = i + 1 < count ? after != end && *after == between : after == end;
+    if (error != std::errc() || !followed) {
+      throw vo::Error(name, fmt::format("is '{}'", *text),
+                      fmt::format("{} numbers with '{}' between them", count, between));
+    }
+    at = after + 1;
+  }
+}
+
+void put_describing(const Settings& s, StageOptions& options) {
+  if (!s.descriptor) return;
+  DescriptorOptions describe{.name = *s.descriptor, .patch = options.matching.patch};
+  put(s.descriptor_file, describe.file.path);
+  put_choice(s.descriptor_metric, describe.file.metric,
+             {{"cosine", Metric::kCosine}, {"l1", Metric::kL1}, {"l2", Metric::kL2}});
+  NetworkOptions& network = describe.network;
+  put(s.model, network.model);
+  put(s.model_config, network.model_config);
+  put(s.layer, network.layer);
+  std::array pool{network.pool_rows, network.pool_columns};
+  std::array input{network.input_width, network.input_height};
+  put_numbers("pool", s.pool, 'x', pool);
+  put_numbers("input", s.input, 'x', input);
+  for (const int side : {pool[0], pool[1], input[0], input[1]})
+    if (side < 1 || side > 8192)
+      throw vo::Error("pool, input", fmt::format("has a side of {}", side), "1 to 8192");
+  network.pool_rows = pool[0];
+  network.pool_columns = pool[1];
+  network.input_width = input[0];
+  network.input_height = input[1];
+  put(s.scale, network.scale);
+  put_numbers("mean", s.mean, ',', network.mean);
+  put(s.swap_rb, network.swap_rb);
+
+  const std::shared_ptr<const DescriptorSet> descriptors = make_descriptors(describe);
+  options.sampling.descriptors = options.matching.descriptors = descriptors;
+  for (std::size_t i = 0; i < descriptors->size(); ++i) {
+    options.walk.recorders.push_back(
+        [descriptors, i](const vo::Frame& frame) { return (*descriptors)[i]->record(frame); });
+    options.walk.colour_width_px =
+        std::max(options.walk.colour_width_px, (*descriptors)[i]->traits().colour_width_px);
+  }
 }
 
 void put_motion(const Settings& s, StageOptions& options) {
@@ -116,7 +176,7 @@ void put_search(const Settings& s, StageOptions& options) {
   put_choice(
       s.candidates, matching.candidate_use,
       {{"auto", CandidateUse::kAuto}, {"never", CandidateUse::kNever}, {"always", CandidateUse::kAlways}});
-  put(s.max_shift_px, matching.cost.max_shift_px);
+  if (s.max_shift_px) options.sampling.max_shift_px = matching.max_shift_px = s.max_shift_px;
   put_choice(s.enhance, matching.enhancement.method,
              {{"standardise", Enhancement::kStandardise},
               {"local", Enhancement::kLocal},
@@ -138,6 +198,7 @@ void put_search(const Settings& s, StageOptions& options) {
 StageOptions stage_options(const Settings& resolved, bool follow_steps) {
   StageOptions options;
   put_reading(resolved, options);
+  put_describing(resolved, options);
   put_motion(resolved, options);
   put_odometry(resolved, options);
   put_search(resolved, options);

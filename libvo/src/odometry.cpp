@@ -56,7 +56,11 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
   for (const Frame& frame : batch) walk.time_s.push_back(frame.time_s);
   walk.frame_width_px = batch.front().image.cols;
   walk.frame_height_px = batch.front().image.rows;
+  walk.records.resize(options.recorders.size());
+  for (auto& records : walk.records) records.resize(begin + batch.size());
   parallel_for(batch.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < options.recorders.size(); ++k)
+      walk.records[k][begin + i] = options.recorders[k](batch[i]);
     make_thumbnail(batch[i].image, options.thumbnail, walk.thumbnails[begin + i]);
     if (options.preview_width_px > 0)
       walk.previews[begin + i] = preview_of(batch[i], options.preview_width_px);
@@ -78,7 +82,7 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
   FrameSourceOptions frames = options.frames;
-  frames.colour_width_px = std::max(0, options.preview_width_px);
+  frames.colour_width_px = std::max({0, options.preview_width_px, options.colour_width_px});
   return read_walk(*open_frame_source(source, frames), source, options, progress);
 }
 

@@ -58,7 +58,7 @@ BENCHMARK(bench::sad_limit)->Name("sad_limit")->Threads(2)->Unit(benchmark::kMil
 void cost_matrix(benchmark::State& state) {
   vo::set_thread_count(static_cast<int>(state.range(2)));
   const Walks walks(state);
-  const place::CostSource source(walks.query, walks.reference);
+  const place::ThumbnailCosts source(walks.query, walks.reference);
   place::CostMatrix matrix = place::make_cost_matrix(walks.query.size(), walks.reference.size());
   for (auto _ : state) {
     source.compute(place::block_of(matrix));

@@ -54,6 +54,7 @@ inline void add_traverse(place::Route& route, const std::string& name, const Kno
   if (route.traverses.empty()) {
     route.unit = sampled.unit;
     route.metric = sampled.metric;
+    route.learned = sampled.learned;
   }
   route.traverses.push_back(place::make_traverse(name, known.walk, sampled,
                                                  surveyed ? std::optional(survey_of(known)) : std::nullopt));

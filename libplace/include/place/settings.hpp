@@ -20,6 +20,12 @@ struct Settings {
   std::optional<std::string> patch_shape;
   std::optional<double> patch_min_contrast;
 
+  // Describing
+  std::optional<std::string> descriptor, descriptor_file, descriptor_metric;
+  std::optional<std::string> model, model_config, layer, pool, input, mean;
+  std::optional<double> scale;
+  std::optional<bool> swap_rb;
+
   // Motion and sampling
   std::optional<std::string> motion, motion_file;
   std::optional<double> motion_file_start_s, motion_file_gap_s;
@@ -59,7 +65,7 @@ struct Settings {
 };
 
 /// What a setting belongs to, and so which commands take it.
-enum class SettingGroup { kReading, kMotion, kOdometry, kSearch, kGeneral };
+enum class SettingGroup { kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral };
 
 /// "Reading", "Motion and sampling", ... for people.
 std::string_view name_of(SettingGroup group);
@@ -113,8 +119,9 @@ void check_ranges(const Settings& settings);
 Settings merged(const Settings& given, const Settings& otherwise);
 
 /// True if the conditions of `setting.when` hold: `name=a|b` that a setting is one of these, `name!=a|b` that
-/// it is none of them, `!name` that it has no value; several are joined by `&`. `why_not`: if given, filled
-/// with a condition that does not hold, for people ("motion is sad", "camera is given").
+/// it is none of them (of a value of several joined by `+`: any of these), `!name` that it has no value;
+/// several are joined by `&`. `why_not`: if given, filled with a condition that does not hold, for people
+/// ("motion is sad", "camera is given").
 bool has_effect(const Settings& settings, const Setting& setting, std::string* why_not = nullptr);
 
 /// The candidate that takes the fewest edits to make of `name`; empty if even that takes more than half its

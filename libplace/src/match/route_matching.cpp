@@ -1,6 +1,8 @@
 #include "place/match/route_matching.hpp"
 
 #include "place/match/cost_matrix.hpp"
+#include "place/match/descriptor_costs.hpp"
+#include "place/match/summed_costs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,30 +54,69 @@ std::vector<std::size_t> counted(std::size_t count) {
 }
 
 /// The references that are compared with: all, or of very many a shortlist.
-std::vector<std::size_t> references_to_compare(const vo::ImageStack& query, const vo::ImageStack& reference,
+std::vector<std::size_t> references_to_compare(const Descriptors& query, const Descriptors& reference,
                                                const RouteMatchingOptions& options, int length) {
   // A shortlist takes less than half as long as comparing all references with 400 queries
   // (tests/bench/README.md).
   constexpr std::size_t kManyQueries = 400, kManyReferences = 100'000;
-  const bool many = query.size() >= kManyQueries && reference.size() >= kManyReferences;
+  const bool many = count_of(query) >= kManyQueries && count_of(reference) >= kManyReferences;
   if (options.candidate_use == CandidateUse::kAlways ||
       (options.candidate_use == CandidateUse::kAuto && many)) {
     CandidateOptions settings = options.candidates;
     settings.margin = std::max(settings.margin, length);
     return candidates(query, reference, settings);
   }
-  return counted(reference.size());
+  return counted(count_of(reference));
+}
+
+/// Two walks as they are compared, by each descriptor.
+struct Compared {
+  std::vector<Descriptors> query, reference;
+  std::vector<std::size_t> columns;  ///< the traverse's keyframes that are compared with
+};
+
+Compared compared(const SampledWalk& sampled, const Traverse& traverse, const DescriptorSet& descriptors,
+                  const RouteMatchingOptions& options, int length) {
+  if (sampled.descriptors.size() != descriptors.size() || traverse.descriptors.size() != descriptors.size())
+    throw std::invalid_argument("match_on_route: walks described by the given descriptors expected");
+  Compared both;
+  for (std::size_t i = 0; i < descriptors.size(); ++i) {
+    both.query.push_back(descriptors[i]->comparable(sampled.descriptors[i]));
+    both.reference.push_back(descriptors[i]->comparable(traverse.descriptors[i]));
+  }
+  both.columns = references_to_compare(both.query.front(), both.reference.front(), options, length);
+  if (both.columns.size() < count_of(both.reference.front()))
+    for (Descriptors& reference : both.reference) reference = select(reference, both.columns);
+  return both;
+}
+
+std::shared_ptr<const DescriptorSet> descriptors_of(const RouteMatchingOptions& options) {
+  if (options.descriptors) return options.descriptors;
+  return make_descriptors({.name = "thumbnail", .patch = options.patch});
+}
+
+/// The costs of one descriptor, or the sum of what several say.
+std::unique_ptr<CostSource> costs_of(const Compared& both, const DescriptorSet& descriptors,
+                                     std::optional<int> max_shift_px) {
+  std::vector<SummedPart> parts;
+  for (std::size_t i = 0; i < descriptors.size(); ++i) {
+    const DescriptorTraits traits = descriptors[i]->traits();
+    parts.push_back(
+        {descriptor_costs(both.query[i], both.reference[i], traits, max_shift_px), traits.prior_queries});
+  }
+  if (parts.size() == 1) return std::move(parts.front().costs);
+  return std::make_unique<SummedCosts>(std::move(parts));
 }
 
 std::vector<Candidate> search_our_way(const SampledWalk& sampled, const Traverse& traverse, std::size_t index,
                                       const RouteMatchingOptions& options, int length,
                                       const SearchCallback& callback) {
-  const vo::ImageStack query = vo::patch_normalise(sampled.thumbnails, options.patch);
-  vo::ImageStack reference = vo::patch_normalise(traverse.thumbnails, options.patch);
-  const std::vector<std::size_t> columns = references_to_compare(query, reference, options, length);
-  if (columns.size() < reference.size()) reference = vo::select(reference, columns);
-  StreamedSearchOptions streamed{
-      .cost = options.cost, .enhancement = options.enhancement, .search = options.search};
+  const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
+  const Compared both = compared(sampled, traverse, *descriptors, options, length);
+  const std::unique_ptr<CostSource> costs = costs_of(both, *descriptors, options.max_shift_px);
+  const std::vector<std::size_t>& columns = both.columns;
+  StreamedSearchOptions streamed{.cost = {}, .enhancement = options.enhancement, .search = options.search};
+  streamed.enhancement.prior_queries = prior_queries_of(options);
   streamed.search.length = length;
   MatrixCallbacks callbacks;
   if (callback) {
@@ -83,7 +124,7 @@ std::vector<Candidate> search_our_way(const SampledWalk& sampled, const Traverse
     callbacks.enhanced = [&](const ConstCosts& part) { callback({index, true, part, columns}); };
   }
   std::vector<Candidate> found;
-  for (const SequenceMatch& match : search_streamed(query, reference, streamed, callbacks)) {  // SSS 3.4
+  for (const SequenceMatch& match : search_streamed(*costs, streamed, callbacks)) {  // SSS 3.4
     found.push_back({match.reference ? std::optional(columns[*match.reference]) : std::nullopt, match.score,
                      match.reference && match.terms < length});
   }
@@ -94,9 +135,14 @@ std::vector<Candidate> search_the_original_way(const SampledWalk& sampled, const
                                                std::size_t index, openseqslam::Options options, int length,
                                                const SearchCallback& callback) {
   options.sequence_length = length;
+  const vo::ImageStack* const reference = thumbnails_of(traverse);
+  if (reference == nullptr) {
+    throw vo::Error(fmt::format("traverse '{}'", traverse.name), "was built without thumbnails",
+                    "a route built with descriptor thumbnail, or with previews");
+  }
   const CostMatrix cost =
       openseqslam::difference_matrix(openseqslam::patch_normalise(sampled.thumbnails, options),
-                                     openseqslam::patch_normalise(traverse.thumbnails, options), options);
+                                     openseqslam::patch_normalise(*reference, options), options);
   const CostMatrix enhanced = openseqslam::enhance(cost, options);
   if (callback) {
     const std::vector<std::size_t> columns = counted(traverse.keyframes.size());
@@ -123,6 +169,22 @@ Place place_of(const Traverse& traverse, std::size_t keyframe) {
 }
 
 }  // namespace
+
+CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& traverse,
+                                const RouteMatchingOptions& options) {
+  RouteMatchingOptions all = options;
+  all.candidate_use = CandidateUse::kNever;
+  const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
+  const Compared both = compared(sampled, traverse, *descriptors, all, 1);
+  return cost_matrix(*costs_of(both, *descriptors, options.max_shift_px));
+}
+
+double prior_queries_of(const RouteMatchingOptions& options) {
+  double most = 0;
+  for (const auto& descriptor : *descriptors_of(options))
+    most = std::max(most, descriptor->traits().prior_queries);
+  return most;
+}
 
 RouteMatches match_on_route(const Route& route, std::span<const double> time_s, const SampledWalk& sampled,
                             const RouteMatchingOptions& options, const SearchCallback& callback) {

@@ -27,7 +27,11 @@ std::size_t part_width(std::size_t queries, std::size_t reach, std::size_t windo
 std::vector<SequenceMatch> search_streamed(const vo::ImageStack& queries, const vo::ImageStack& references,
                                            const StreamedSearchOptions& options,
                                            const MatrixCallbacks& callbacks) {
-  const CostSource source(queries, references, options.cost);
+  return search_streamed(ThumbnailCosts(queries, references, options.cost), options, callbacks);
+}
+
+std::vector<SequenceMatch> search_streamed(const CostSource& source, const StreamedSearchOptions& options,
+                                           const MatrixCallbacks& callbacks) {
   const std::size_t width = source.references();
   ContrastEnhancer enhancer(source.queries(), width, options.enhancement);
   CostCache cache(source, options.kept_bytes);

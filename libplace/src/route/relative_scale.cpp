@@ -1,8 +1,6 @@
 #include "place/route/relative_scale.hpp"
 
-#include "place/match/candidates.hpp"
 #include "place/match/contrast_enhancement.hpp"
-#include "place/match/cost_matrix.hpp"
 #include "place/match/sequence_search.hpp"
 
 #include <algorithm>
@@ -24,23 +22,15 @@ double mean_best_cost(const CostMatrix& enhanced, double slope, int length) {
 
 }  // namespace
 
-double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
-                      const RelativeScaleOptions& options) {
+double relative_scale(CostMatrix enhanced, const RelativeScaleOptions& options,
+                      const ContrastEnhancementOptions& enhancement) {
   if (!(options.largest > 1) || options.steps < 3 || options.length < 2) {
     throw std::invalid_argument("relative_scale: largest > 1, steps >= 3 and length >= 2 expected");
   }
-  if (2 * std::min(query.size(), reference.size()) < 3 * static_cast<std::size_t>(options.length)) return 1;
+  if (2 * std::min(enhanced.queries, enhanced.references) < 3 * static_cast<std::size_t>(options.length))
+    return 1;
 
-  if (reference.size() > options.largest_reference) {
-    const auto likely = candidates(query, reference);
-    if (likely.size() < reference.size()) {
-      RelativeScaleOptions of_likely = options;
-      of_likely.largest_reference = likely.size();
-      return relative_scale(query, vo::select(reference, likely), of_likely);
-    }
-  }
-  CostMatrix enhanced = cost_matrix(query, reference);
-  enhance_contrast(enhanced, {.method = Enhancement::kStandardise});
+  enhance_contrast(enhanced, enhancement);
   const double step = 2 * std::log(options.largest) / (options.steps - 1);
   const auto log_scale = [&](std::ptrdiff_t i) {
     return -std::log(options.largest) + static_cast<double>(i) * step;

@@ -1,13 +1,16 @@
 #include "place/route/route_database.hpp"
 
+#include "place/describe/quantise.hpp"
 #include "place/version.hpp"
 #include "route/sqlite.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <functional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -21,7 +24,7 @@ using sqlite::Database;
 using sqlite::Statement;
 
 constexpr std::int64_t kApplicationId = 0x72747263;  // "rtrc", in the header of the file
-constexpr std::size_t kChunkThumbnails = 256;
+constexpr std::size_t kChunk = 256;                  // keyframes
 
 // What walks take over lies as key and value, so that a new setting changes no table.
 constexpr const char* kSchema = R"sql(
@@ -34,6 +37,13 @@ CREATE TABLE traverse(
   duration_s REAL NOT NULL, frame_width_px INTEGER NOT NULL, frame_height_px INTEGER NOT NULL,
   pose_source TEXT NOT NULL, surveyed INTEGER NOT NULL, keyframes INTEGER NOT NULL,
   thumbnail_width INTEGER NOT NULL, thumbnail_height INTEGER NOT NULL);
+CREATE TABLE learned(descriptor INTEGER PRIMARY KEY, checksum INTEGER NOT NULL, bytes BLOB NOT NULL);
+CREATE TABLE descriptor(
+  traverse INTEGER NOT NULL REFERENCES traverse, descriptor INTEGER NOT NULL, form TEXT NOT NULL,
+  width INTEGER NOT NULL, height INTEGER NOT NULL, PRIMARY KEY(traverse, descriptor)) WITHOUT ROWID;
+CREATE TABLE descriptor_chunk(
+  traverse INTEGER NOT NULL REFERENCES traverse, descriptor INTEGER NOT NULL, first INTEGER NOT NULL,
+  checksum INTEGER NOT NULL, bytes BLOB NOT NULL, PRIMARY KEY(traverse, descriptor, first));
 CREATE TABLE setting(
   traverse INTEGER NOT NULL REFERENCES traverse, name TEXT NOT NULL, value TEXT NOT NULL,
   PRIMARY KEY(traverse, name)) WITHOUT ROWID;
@@ -64,18 +74,99 @@ std::int64_t checksum(std::span<const std::uint8_t> bytes) {
   throw vo::Error(path, fmt::format("is damaged: {}", what), "a whole route database; build it again");
 }
 
+/// What descriptors are in the file: their form, two sides, and bytes.
+struct Form {
+  std::string_view name;
+  std::int64_t width = 0, height = 0;
+  std::size_t bytes = 0;  ///< of one
+
+  bool operator==(const Form&) const = default;
+};
+
+constexpr std::string_view kPixels = "pixels", kColumns = "columns", kFloats = "floats";
+
+Form form_of(const Descriptors& descriptors) {
+  if (const auto* images = std::get_if<vo::ImageStack>(&descriptors))
+    return {kPixels, images->width, images->height, images->image_size()};
+  if (const auto* stack = std::get_if<ColumnStack>(&descriptors))
+    return {kColumns, stack->columns, stack->channels, stack->descriptor_size()};
+  const auto& rows = std::get<FloatRows>(descriptors);
+  return {kFloats, static_cast<std::int64_t>(rows.width), 1, rows.width * sizeof(float)};
+}
+
+std::span<const std::uint8_t> bytes_of(const Descriptors& descriptors) {
+  return std::visit(
+      [](const auto& rows) -> std::span<const std::uint8_t> {
+        if constexpr (requires { rows.pixels; }) {
+          return rows.pixels;
+        } else {
+          return {reinterpret_cast<const std::uint8_t*>(rows.values.data()),
+                  rows.values.size() * sizeof(rows.values[0])};
+        }
+      },
+      descriptors);
+}
+
+/// Descriptors of a form, all 0; none if there is no such form.
+std::optional<Descriptors> make_of_form(std::string_view name, std::int64_t width, std::int64_t height,
+                                        std::size_t count) {
+  constexpr std::int64_t kLargest = 1 << 24;  // bytes of one that is taken for no mistake
+  if (width < 0 || height < 0 || width > kLargest || height > kLargest || width * height > kLargest)
+    return {};
+  const int w = static_cast<int>(width), h = static_cast<int>(height);
+  if (name == kPixels) return vo::make_image_stack(w, h, count);
+  if (name == kColumns) return make_column_stack(w, h, count);
+  if (name == kFloats && height == 1) return make_float_rows(static_cast<std::size_t>(width), count);
+  return {};
+}
+
+/// Writable bytes of what `make_of_form` made.
+std::span<std::uint8_t> writable_bytes(Descriptors& descriptors) {
+  const std::span<const std::uint8_t> bytes = bytes_of(descriptors);
+  return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};
+}
+
 void check(const Route& route) {
   std::set<std::string> names;
   for (const Traverse& traverse : route.traverses) {
     if (!names.insert(traverse.name).second)
       throw std::invalid_argument("write_route: two traverses share a name");
-    if (traverse.thumbnails.size() != traverse.keyframes.size() ||
-        traverse.thumbnails.width != route.traverses.front().thumbnails.width ||
-        traverse.thumbnails.height != route.traverses.front().thumbnails.height) {
+    const auto& first = route.traverses.front().descriptors;
+    bool fit = traverse.descriptors.size() == route.learned.size();
+    for (std::size_t i = 0; fit && i < traverse.descriptors.size(); ++i) {
+      fit = count_of(traverse.descriptors[i]) == traverse.keyframes.size() &&
+            form_of(traverse.descriptors[i]) == form_of(first[i]);
+    }
+    if (!fit || (!traverse.thumbnails.empty() && traverse.thumbnails.size() != traverse.keyframes.size())) {
       throw std::invalid_argument(
-          "write_route: a traverse's thumbnails do not fit its keyframes or the other traverses'");
+          "write_route: a traverse's descriptors do not fit its keyframes or the other traverses'");
     }
   }
+}
+
+/// Bytes of rows of one size in chunks, each with its checksum.
+void write_chunks(Statement& chunk, std::span<const std::uint8_t> bytes, std::size_t size, std::size_t rows,
+                  const std::function<void(Statement&)>& bind_keys) {
+  for (std::size_t first = 0; first < rows; first += kChunk) {
+    const auto part = bytes.subspan(first * size, std::min(kChunk, rows - first) * size);
+    bind_keys(chunk);
+    chunk.bind(static_cast<std::int64_t>(first)).bind(checksum(part)).bind(part).execute();
+  }
+}
+
+/// Fills `bytes` from chunks in their order.
+void read_chunks(Statement& chunk, std::span<std::uint8_t> missing, const std::string& path,
+                 std::string_view what) {
+  while (chunk.step()) {
+    const std::int64_t expected = chunk.integer();
+    const std::span<const std::uint8_t> part = chunk.blob();
+    if (checksum(part) != expected)
+      damaged(path, fmt::format("a block of {} does not fit its checksum", what));
+    if (part.size() > missing.size()) damaged(path, fmt::format("there are more {} than keyframes", what));
+    std::ranges::copy(part, missing.begin());
+    missing = missing.subspan(part.size());
+  }
+  if (!missing.empty()) damaged(path, fmt::format("{} are missing", what));
 }
 
 /// The settings that a statement gives as name and value.
@@ -126,13 +217,17 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
     if (!k.preview_jpeg.empty()) preview.bind(id).bind(position).bind(std::span(k.preview_jpeg)).execute();
   }
 
-  Statement chunk = database.prepare("INSERT INTO thumbnail_chunk VALUES(?,?,?,?)");
-  const std::size_t size = traverse.thumbnails.image_size();
-  const std::span<const std::uint8_t> pixels = traverse.thumbnails.pixels;
-  for (std::size_t first = 0; first < traverse.keyframes.size(); first += kChunkThumbnails) {
-    const std::size_t count = std::min(kChunkThumbnails, traverse.keyframes.size() - first);
-    const std::span<const std::uint8_t> part = pixels.subspan(first * size, count * size);
-    chunk.bind(id).bind(static_cast<std::int64_t>(first)).bind(checksum(part)).bind(part).execute();
+  Statement thumbnails = database.prepare("INSERT INTO thumbnail_chunk VALUES(?,?,?,?)");
+  write_chunks(thumbnails, traverse.thumbnails.pixels, traverse.thumbnails.image_size(),
+               traverse.thumbnails.size(), [&](Statement& chunk) { chunk.bind(id); });
+  Statement descriptor = database.prepare("INSERT INTO descriptor VALUES(?,?,?,?,?)");
+  Statement chunk = database.prepare("INSERT INTO descriptor_chunk VALUES(?,?,?,?,?)");
+  for (std::size_t i = 0; i < traverse.descriptors.size(); ++i) {
+    const auto number = static_cast<std::int64_t>(i);
+    const Form form = form_of(traverse.descriptors[i]);
+    descriptor.bind(id).bind(number).bind(form.name).bind(form.width).bind(form.height).execute();
+    write_chunks(chunk, bytes_of(traverse.descriptors[i]), form.bytes, traverse.keyframes.size(),
+                 [&](Statement& of) { of.bind(id).bind(number); });
   }
 }
 
@@ -154,7 +249,7 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   const std::int64_t keyframes = row.integer();
   const std::int64_t width = row.integer(), height = row.integer();
   constexpr std::int64_t kLargestSide = 1024;
-  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
+  if (width < 0 || height < 0 || width > kLargestSide || height > kLargestSide)
     damaged(path, "the thumbnail size is no size");
 
   Statement settings = database.prepare("SELECT name, value FROM setting WHERE traverse = ? ORDER BY name");
@@ -191,25 +286,38 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     }
   }
 
-  traverse.thumbnails =
-      vo::make_image_stack(static_cast<int>(width), static_cast<int>(height), traverse.keyframes.size());
-  std::span<std::uint8_t> missing = traverse.thumbnails.pixels;
-  Statement chunk =
-      database.prepare("SELECT checksum, pixels FROM thumbnail_chunk WHERE traverse = ? ORDER BY first");
-  chunk.bind(id);
-  while (chunk.step()) {
-    const std::int64_t expected = chunk.integer();
-    const std::span<const std::uint8_t> part = chunk.blob();
-    if (checksum(part) != expected) damaged(path, "a block of thumbnails does not fit its checksum");
-    if (part.size() > missing.size()) damaged(path, "there are more thumbnails than keyframes");
-    std::ranges::copy(part, missing.begin());
-    missing = missing.subspan(part.size());
+  if (options.previews && width > 0) {
+    traverse.thumbnails =
+        vo::make_image_stack(static_cast<int>(width), static_cast<int>(height), traverse.keyframes.size());
+    Statement chunk =
+        database.prepare("SELECT checksum, pixels FROM thumbnail_chunk WHERE traverse = ? ORDER BY first");
+    read_chunks(chunk.bind(id), traverse.thumbnails.pixels, path, "thumbnails");
   }
-  if (!missing.empty()) damaged(path, "thumbnails are missing");
+  Statement descriptor =
+      database.prepare("SELECT form, width, height FROM descriptor WHERE traverse = ? ORDER BY descriptor");
+  descriptor.bind(id);
+  while (descriptor.step()) {
+    const std::string form = descriptor.text();
+    const std::int64_t first_side = descriptor.integer(), second_side = descriptor.integer();
+    std::optional<Descriptors> made = make_of_form(form, first_side, second_side, traverse.keyframes.size());
+    if (!made) damaged(path, "the size of its descriptors is no size");
+    Statement chunk = database.prepare(
+        "SELECT checksum, bytes FROM descriptor_chunk WHERE traverse = ? AND descriptor = ? ORDER BY first");
+    chunk.bind(id).bind(static_cast<std::int64_t>(traverse.descriptors.size()));
+    read_chunks(chunk, writable_bytes(*made), path, "descriptors");
+    traverse.descriptors.push_back(std::move(*made));
+  }
   return traverse;
 }
 
 }  // namespace
+
+const vo::ImageStack* thumbnails_of(const Traverse& traverse) {
+  if (!traverse.thumbnails.empty()) return &traverse.thumbnails;
+  for (const Descriptors& descriptors : traverse.descriptors)
+    if (const auto* images = std::get_if<vo::ImageStack>(&descriptors)) return images;
+  return nullptr;
+}
 
 bool has_poses(const Route& route) {
   return std::ranges::any_of(route.traverses, [](const Traverse& traverse) {
@@ -256,8 +364,18 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   if (latitude_deg && longitude_deg) route.origin = {*latitude_deg, *longitude_deg};
   Statement settings = database.prepare("SELECT name, value FROM route_setting ORDER BY name");
   route.settings = read_settings(settings, shown);
-  for (std::int64_t id = 1; id <= traverses; ++id)
+  Statement learned = database.prepare("SELECT checksum, bytes FROM learned ORDER BY descriptor");
+  while (learned.step()) {
+    const std::int64_t expected = learned.integer();
+    const std::span<const std::uint8_t> bytes = learned.blob();
+    if (checksum(bytes) != expected) damaged(shown, "what it learned does not fit its checksum");
+    route.learned.emplace_back(bytes.begin(), bytes.end());
+  }
+  for (std::int64_t id = 1; id <= traverses; ++id) {
     route.traverses.push_back(read_traverse(database, shown, id, options));
+    if (route.traverses.back().descriptors.size() != route.learned.size())
+      damaged(shown, "descriptors are missing");
+  }
   return route;
 }
 
@@ -288,6 +406,11 @@ void write_route(const std::filesystem::path& path, const Route& route) {
     for (const Setting& setting : settings_table()) {
       const std::optional<std::string> value = text_of(route.settings, setting);
       if (value) row.bind(setting.name).bind(*value).execute();
+    }
+    Statement learned = database.prepare("INSERT INTO learned VALUES(?,?,?)");
+    for (std::size_t i = 0; i < route.learned.size(); ++i) {
+      const std::span<const std::uint8_t> bytes = route.learned[i];
+      learned.bind(static_cast<std::int64_t>(i)).bind(checksum(bytes)).bind(bytes).execute();
     }
     for (std::size_t i = 0; i < route.traverses.size(); ++i) {
       write_traverse(database, static_cast<std::int64_t>(i) + 1, route.traverses[i]);

@@ -62,8 +62,9 @@ Statement& Statement::bind(std::string_view value) {
 }
 
 Statement& Statement::bind(std::span<const std::uint8_t> value) {
-  check(
-      sqlite3_bind_blob64(statement_.get(), next_parameter_++, value.data(), value.size(), SQLITE_TRANSIENT));
+  static constexpr std::uint8_t kNothing = 0;  // a null pointer would be NULL, not a blob without bytes
+  check(sqlite3_bind_blob64(statement_.get(), next_parameter_++, value.empty() ? &kNothing : value.data(),
+                            value.size(), SQLITE_TRANSIENT));
   return *this;
 }
 

@@ -1,7 +1,9 @@
 #include "place/route/walk_sampling.hpp"
 
+#include "place/match/descriptor_costs.hpp"
 #include "place/route/resampling.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 #include <stdexcept>
@@ -44,17 +46,59 @@ double unit_of(const SampledWalk& sampled, const WalkSamplingOptions& options, c
   return first.sampling_n ? route->unit / *first.sampling_n * *options.n : route->unit;  // linear in n
 }
 
-void take_keyframes(const vo::Walk& walk, std::vector<std::size_t> frames, SampledWalk& sampled) {
+std::shared_ptr<const DescriptorSet> descriptors_of(const WalkSamplingOptions& options) {
+  if (options.descriptors) return options.descriptors;
+  return make_descriptors({.name = "thumbnail", .patch = options.motion.visual.patch});
+}
+
+/// What was kept of the keyframes for each descriptor.
+KeyframeRecords records_of(const vo::Walk& walk, const SampledWalk& sampled, const DescriptorSet& descriptors,
+                           std::size_t index) {
+  KeyframeRecords keyframes{
+      .frames = sampled.frames, .time_s = {}, .thumbnails = sampled.thumbnails, .records = {}};
+  for (const std::size_t frame : sampled.frames) keyframes.time_s.push_back(walk.time_s[frame]);
+  if (!descriptors[index]->traits().records_frames) return keyframes;
+  if (walk.records.size() != descriptors.size())
+    throw std::invalid_argument("sample_walk: a walk read with the descriptors' recorders expected");
+  for (const std::size_t frame : sampled.frames) keyframes.records.push_back(walk.records[index][frame]);
+  return keyframes;
+}
+
+/// Takes frames as keyframes and describes them. `route`: with traverses, or null.
+void take_keyframes(const vo::Walk& walk, std::vector<std::size_t> frames, const DescriptorSet& descriptors,
+                    const Route* route, SampledWalk& sampled) {
   sampled.frames = std::move(frames);
   sampled.thumbnails = vo::select(walk.thumbnails, sampled.frames);
+  sampled.descriptors.clear();
+  sampled.learned.clear();
+  for (std::size_t i = 0; i < descriptors.size(); ++i) {
+    const KeyframeRecords keyframes = records_of(walk, sampled, descriptors, i);
+    sampled.learned.push_back(route != nullptr ? route->learned.at(i) : descriptors[i]->learn(keyframes));
+    sampled.descriptors.push_back(descriptors[i]->describe(keyframes, sampled.learned.back()));
+  }
+}
+
+/// The scale by which keyframes fit those of a traverse, told by the first descriptor.
+double scale_to(const Traverse& reference, const SampledWalk& sampled, const Descriptor& descriptor,
+                const RelativeScaleOptions& scale, std::optional<int> max_shift_px) {
+  const Descriptors query = descriptor.comparable(sampled.descriptors.front());
+  Descriptors compared = descriptor.comparable(reference.descriptors.front());
+  constexpr std::size_t kLargest = 50'000;  // keyframes; of more, only the likely ones are compared
+  if (count_of(compared) > kLargest) compared = select(compared, candidates(query, compared));
+  const DescriptorTraits traits = descriptor.traits();
+  return relative_scale(cost_matrix(*descriptor_costs(query, compared, traits, max_shift_px)), scale,
+                        {.method = Enhancement::kStandardise, .prior_queries = traits.prior_queries});
 }
 
 }  // namespace
 
 SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options, const Route* route) {
   SampledWalk sampled;
+  const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
+  const Route* const on = route != nullptr && !route->traverses.empty() ? route : nullptr;
   if (options.source == vo::MotionSource::kNone) {
-    take_keyframes(walk, every_kth(walk.frames(), static_cast<std::size_t>(options.every)), sampled);
+    take_keyframes(walk, every_kth(walk.frames(), static_cast<std::size_t>(options.every)), *descriptors, on,
+                   sampled);
     return sampled;
   }
   vo::WalkMotion motion = vo::walk_motion(walk, options.source, options.motion);
@@ -70,20 +114,18 @@ SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options
     sampled.motion_model = std::move(motion.visual->model);
     sampled.warnings = motion_warnings(walk, sampled.motion_model);
   }
-  const Traverse* reference =
-      route != nullptr && !route->traverses.empty() ? &route->traverses.front() : nullptr;
+  const Traverse* reference = on != nullptr ? &on->traverses.front() : nullptr;
   if (reference != nullptr && motion.metric != route->metric)
     to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
   sampled.unit = unit_of(sampled, options, route);
-  take_keyframes(walk, resample(sampled.displacement, sampled.unit), sampled);
+  take_keyframes(walk, resample(sampled.displacement, sampled.unit), *descriptors, on, sampled);
   if (reference == nullptr || !options.tie_scale) return sampled;
 
-  const vo::PatchNormalisationOptions& patch = options.motion.visual.patch;
-  sampled.scale = relative_scale(
-      vo::patch_normalise(sampled.thumbnails, patch), vo::patch_normalise(reference->thumbnails, patch),
-      motion.metric && route->metric ? options.metric_scale : options.relative_scale);
+  sampled.scale = scale_to(*reference, sampled, *descriptors->front(),
+                           motion.metric && route->metric ? options.metric_scale : options.relative_scale,
+                           options.max_shift_px);
   for (double& step : sampled.displacement) step *= sampled.scale;
-  take_keyframes(walk, resample(sampled.displacement, sampled.unit), sampled);
+  take_keyframes(walk, resample(sampled.displacement, sampled.unit), *descriptors, on, sampled);
   return sampled;
 }
 
@@ -101,7 +143,12 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
   traverse.frame_height_px = walk.frame_height_px;
   if (survey) traverse.pose_source = survey->source;
   if (survey) traverse.surveyed = survey->surveyed;
-  traverse.thumbnails = sampled.thumbnails;
+  traverse.descriptors = sampled.descriptors;
+  const auto are_thumbnails = [](const Descriptors& made) {
+    return std::holds_alternative<vo::ImageStack>(made);
+  };
+  if (!walk.previews.empty() && std::ranges::none_of(sampled.descriptors, are_thumbnails))
+    traverse.thumbnails = sampled.thumbnails;
   double travelled = 0;
   std::size_t next = 0;
   for (const std::size_t frame : sampled.frames) {

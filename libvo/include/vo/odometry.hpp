@@ -18,6 +18,7 @@
 #include "vo/visual_odometry/monocular_vo.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,10 @@
 
 /// The whole library on one screen: a walk is read once, and every later stage works on what that pass kept.
 namespace vo {
+
+/// What a caller keeps of a frame beside all else, as bytes of its own meaning. Called for frames of a batch
+/// at the same time.
+using FrameRecorder = std::function<std::vector<std::uint8_t>(const Frame&)>;
 
 /// Settings of `read_walk`.
 struct WalkOptions {
@@ -35,6 +40,8 @@ struct WalkOptions {
   bool visual_odometry = false;  ///< monocular visual odometry gives `Walk::track`
   FeatureTrackerOptions tracker;
   MonocularVoOptions vo;
+  std::vector<FrameRecorder> recorders;  ///< each gives one of `Walk::records`
+  int colour_width_px = 0;               ///< of `Frame::colour`, where recorders look at it
 };
 
 /// What one pass over a recording kept: about 2 kB a frame, 3 kB more with previews, 100 bytes with tracked
@@ -48,6 +55,8 @@ struct Walk {
   std::vector<std::vector<std::uint8_t>>
       previews;                      ///< JPEG, one for each frame; empty if none were asked for
   std::vector<FrameMotion> tracked;  ///< by the points followed, one for each frame; empty if they were not
+  /// By recorder, one for each frame.
+  std::vector<std::vector<std::vector<std::uint8_t>>> records;
   std::optional<DisplacementTrack> track;  ///< by visual odometry or from a file, where there is one
   std::vector<std::string> warnings;       ///< what a user should know of the recording
 

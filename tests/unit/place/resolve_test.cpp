@@ -210,6 +210,7 @@ TEST(Resolve, SettingsThatGoTogether) {
   expect_refused(file, kRoute, "motion-file: has no effect: motion is sad");
 
   Settings shift;
+  shift.descriptor = "thumbnail";
   shift.thumbnail_width = 16;
   shift.max_shift_px = 8;
   expect_refused(shift, {}, "max-shift-px: is 8; expected less than half of thumbnail-width");
@@ -273,7 +274,7 @@ TEST(StageOptions, DefaultsAreThoseOfTheStages) {
   EXPECT_EQ(gait.step_length.model, own_gait.step_length.model);
   EXPECT_EQ(gait.signal.lowpass.cutoff_hz, own_gait.signal.lowpass.cutoff_hz);
   EXPECT_EQ(gait.steps.signal, own_gait.steps.signal);
-  EXPECT_EQ(resolved.matching.cost.max_shift_px, stages.matching.cost.max_shift_px);
+  EXPECT_EQ(resolved.matching.max_shift_px, stages.matching.max_shift_px);
   EXPECT_EQ(resolved.matching.enhancement.method, stages.matching.enhancement.method);
   EXPECT_EQ(resolved.matching.search.length, stages.matching.search.length);
   EXPECT_EQ(resolved.matching.search.search_range_rad, stages.matching.search.search_range_rad);

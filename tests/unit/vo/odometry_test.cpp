@@ -73,6 +73,21 @@ TEST(ReadWalk, KeepsNoPreviewWhereNoneIsAskedForAndNoneLargerThanTheFrame) {
   EXPECT_THROW(vo::read_walk(folder.path().string(), {.preview_width_px = -1}), std::invalid_argument);
 }
 
+TEST(ReadWalk, KeepsWhatRecordersGive) {
+  const TemporaryFolder folder;
+  write_walk(folder.path(), Wall(10, 1), {0, 1, 2});
+  vo::WalkOptions options;
+  options.recorders = {[](const vo::Frame& frame) {
+                         return std::vector<std::uint8_t>{static_cast<std::uint8_t>(frame.index)};
+                       },
+                       [](const vo::Frame&) { return std::vector<std::uint8_t>{}; }};
+  const vo::Walk walk = vo::read_walk(folder.path().string(), options);
+  ASSERT_THAT(walk.records, SizeIs(2));
+  ASSERT_THAT(walk.records[0], SizeIs(walk.frames()));
+  for (std::size_t i = 0; i < walk.frames(); ++i) EXPECT_THAT(walk.records[0][i], testing::ElementsAre(i));
+  EXPECT_THAT(walk.records[1], testing::Each(IsEmpty()));
+}
+
 TEST(ReadWalk, RefusesASingleFrame) {
   const TemporaryFolder folder;
   write_walk(folder.path(), Wall(10, 1), {0});

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,8 +30,10 @@ enum class CandidateUse {
 struct RouteMatchingOptions {
   CandidateUse candidate_use = CandidateUse::kAuto;
   CandidateOptions candidates;  ///< its margin is widened to half a line
+  /// What keyframes were described by; null: thumbnails, as `patch` says.
+  std::shared_ptr<const DescriptorSet> descriptors;
   vo::PatchNormalisationOptions patch;
-  CostOptions cost;
+  std::optional<int> max_shift_px;  ///< see `descriptor_costs`
   ContrastEnhancementOptions enhancement;
   SequenceSearchOptions search;
   /// Metres on a line, instead of `search.length`; needs surveyed distances.
@@ -57,10 +60,20 @@ struct RouteMatches {
   int lines = 0;               ///< distinct lines searched through each pair; 0 in OpenSeqSLAM's search
 };
 
+/// The whole cost matrix of a sampled walk and a traverse, as `match_on_route` would search it. Throws
+/// `std::invalid_argument` for walks that were not described by the options' descriptors.
+CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& traverse,
+                                const RouteMatchingOptions& options);
+
+/// What the standardisation of those costs counts beforehand
+/// (`ContrastEnhancementOptions::prior_queries`).
+double prior_queries_of(const RouteMatchingOptions& options);
+
 /// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> sequence search,
 /// against each traverse by itself; of a route's traverses the one with the surest match counts. `time_s`: of
 /// the walk's frames. Throws `vo::Error` naming the traverse if it is shorter than the sequence, or has no
-/// distances where a length in metres asks for them; `std::invalid_argument` for a route without traverses.
+/// distances where a length in metres asks for them, or no thumbnails for OpenSeqSLAM's search;
+/// `std::invalid_argument` for a route without traverses.
 RouteMatches match_on_route(const Route& route, std::span<const double> time_s, const SampledWalk& sampled,
                             const RouteMatchingOptions& options, const SearchCallback& callback = {});
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <cstddef>
-
-#include <vo/image/image_stack.hpp>
+#include "place/match/contrast_enhancement.hpp"
+#include "place/match/costs.hpp"
 
 namespace place {
 
@@ -15,8 +14,6 @@ struct RelativeScaleOptions {
   /// Deviations of cost a scale must gain for every squared unit of its logarithm: where the matrix hardly
   /// tells, the walks are taken to be of like speed.
   double prior_weight = 0.1;
-  std::size_t largest_reference =
-      50'000;  ///< keyframes; of more, only the likely ones are compared (`candidates`)
 };
 
 /// How far one query keyframe step reaches, in reference keyframe steps, found by matching alone.
@@ -26,10 +23,10 @@ struct RelativeScaleOptions {
 /// through the cost matrix is straight but not at 45 degrees. Lines of a single slope are searched through
 /// the whole standardised matrix; the right slope is the one whose best lines are cheapest on average.
 ///
-/// `query`, `reference`: descriptors of keyframes, of one size. Returns 1 if either has fewer than
-/// 3 / 2 * length keyframes: too few to tell. O(queries * references * (pixels + steps * length)), in
-/// parallel over queries.
-double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
-                      const RelativeScaleOptions& options = {});
+/// `costs`: of all query keyframes with all, or the likely (`candidates`), of the reference's. Returns 1 if
+/// either has fewer than 3 / 2 * length keyframes: too few to tell. Throws `std::invalid_argument` for
+/// options that are not valid. O(queries * references * steps * length), in parallel over queries.
+double relative_scale(CostMatrix costs, const RelativeScaleOptions& options = {},
+                      const ContrastEnhancementOptions& enhancement = {});
 
 }  // namespace place

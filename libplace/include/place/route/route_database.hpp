@@ -1,5 +1,6 @@
 #pragma once
 
+#include "place/describe/descriptor.hpp"
 #include "place/settings.hpp"
 
 #include <cstdint>
@@ -34,8 +35,11 @@ struct Traverse {
   std::string pose_source;  ///< file the poses came from, without folders; empty if none
   bool surveyed = true;     ///< false: the poses are the walk's own odometry, from where it began
   std::vector<Keyframe> keyframes;
-  vo::ImageStack thumbnails;  ///< one for each keyframe
-  Settings settings;          ///< resolved, that shaped it
+  std::vector<Descriptors> descriptors;  ///< of each of the route's descriptors, one for each keyframe
+  /// One for each keyframe, kept as previews are; empty where they were not, or where they are the
+  /// descriptors.
+  vo::ImageStack thumbnails;
+  Settings settings;  ///< resolved, that shaped it
 };
 
 /// Where on the earth a route's poses are (0, 0): x goes east, y north.
@@ -50,31 +54,35 @@ struct Route {
   double unit = 0;  ///< between keyframes, in the displacement's unit (SSS Eq. 4's u, of the first traverse);
                     ///< 0 without motion
   bool metric = false;  ///< that unit is the metre; otherwise frames at the first traverse's mean speed
+  std::vector<Bytes> learned;  ///< by each descriptor from the first traverse (`Descriptor::learn`)
   std::vector<Traverse> traverses;
   std::optional<GeographicOrigin> origin;  ///< where the surveyed poses are geographic
   std::string software_version;            ///< of the program that wrote it
 };
 
+/// The thumbnails of a traverse's keyframes, wherever they are; null if it has none.
+const vo::ImageStack* thumbnails_of(const Traverse& traverse);
+
 /// True if any keyframe has a pose that a query could be put among.
 bool has_poses(const Route& route);
 
 /// The layout of the file; files of another layout are refused.
-inline constexpr int kRouteSchemaVersion = 3;
+inline constexpr int kRouteSchemaVersion = 4;
 
 /// What to leave in the file.
 struct RouteReadOptions {
-  bool previews = true;  ///< read the pictures too
+  bool previews = true;  ///< read the pictures and thumbnails too
 };
 
-/// Reads a route database: one SQLite file, opened read-only. Thumbnails lie in chunks of 256, each with a
+/// Reads a route database: one SQLite file, opened read-only. Descriptors lie in chunks of 256, each with a
 /// checksum. Throws `vo::Error` naming the file if there is none, it is no route database, was written by a
-/// another version, or is damaged (a broken page, a missing row, a thumbnail chunk that does not fit its
+/// another version, or is damaged (a broken page, a missing row, a chunk of descriptors that does not fit its
 /// checksum). O(file).
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options = {});
 
 /// Writes a route, over what is at `path`; the file is the old one or the new one at any moment. Equal routes
 /// give equal bytes. Throws `vo::Error` if it cannot be written, `std::invalid_argument` if a traverse's
-/// thumbnails do not fit its keyframes or the other traverses', or two traverses share a name.
+/// descriptors do not fit its keyframes or the other traverses', or two traverses share a name.
 void write_route(const std::filesystem::path& path, const Route& route);
 
 }  // namespace place

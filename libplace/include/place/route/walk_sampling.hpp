@@ -1,9 +1,11 @@
 #pragma once
 
+#include "place/describe/descriptor.hpp"
 #include "place/route/relative_scale.hpp"
 #include "place/route/route_database.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +24,9 @@ struct WalkSamplingOptions {
   std::optional<double> n;          ///< SSS Eq. 4's n, with motion
   std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4, where the motion is metric
   bool tie_scale = true;  ///< bring a walk to the spacing of the route's first traverse (`relative_scale`)
+  /// What keyframes are described by; null: thumbnails, by the motion's patches.
+  std::shared_ptr<const DescriptorSet> descriptors;
+  std::optional<int> max_shift_px;  ///< see `descriptor_costs`
   RelativeScaleOptions relative_scale;
   /// The same where both walks are in metres: by their steps, whose lengths differ by a tenth or two where
   /// speeds differ by half.
@@ -32,8 +37,10 @@ struct WalkSamplingOptions {
 struct SampledWalk {
   std::vector<std::size_t> frames;  ///< of the walk, strictly increasing
   std::vector<double>
-      displacement;              ///< of every frame of the walk since the one before; empty without motion
-  vo::ImageStack thumbnails;     ///< of the keyframes
+      displacement;           ///< of every frame of the walk since the one before; empty without motion
+  vo::ImageStack thumbnails;  ///< of the keyframes
+  std::vector<Descriptors> descriptors;  ///< of the keyframes, by each of the descriptors
+  std::vector<Bytes> learned;    ///< that the descriptors were made with: the route's, or of this walk
   vo::MotionModel motion_model;  ///< of alignment error, learned on the walk; nothing in it without
   bool metric = false;           ///< the displacement came in metres
   vo::Trajectory trajectory;  ///< by that motion, at every frame; empty unless metres and headings are known
@@ -42,13 +49,15 @@ struct SampledWalk {
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
 };
 
-/// Samples a walk (SSS 3.3). With motion, keyframes are a unit of displacement apart: `spacing_m` where the
-/// motion is metric, else by Eq. 4 with `n`. A walk on a route takes the unit that the route's first traverse
-/// gave it, in the proportion in which its own `n` or `spacing_m` differs from the route's, and its scale is
-/// tied to that traverse. `route`: null, or without traverses, for a first walk.
+/// Samples a walk (SSS 3.3) and describes its keyframes. With motion, keyframes are a unit of displacement
+/// apart: `spacing_m` where the motion is metric, else by Eq. 4 with `n`. A walk on a route takes the unit
+/// that the route's first traverse gave it, in the proportion in which its own `n` or `spacing_m` differs
+/// from the route's, and its scale is tied to that traverse. `route`: null, or without traverses, for a first
+/// walk, which the descriptors learn from.
 ///
 /// Throws `vo::Error` naming the walk if it shows no motion to learn from, or no metres though only
-/// `spacing_m` says how dense keyframes are; `std::invalid_argument` if neither does.
+/// `spacing_m` says how dense keyframes are; `std::invalid_argument` if neither does, or if the walk was read
+/// without what the descriptors record.
 SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options,
                         const Route* route = nullptr);
 

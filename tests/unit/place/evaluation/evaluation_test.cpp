@@ -165,14 +165,11 @@ TEST(Evaluate, EqualsBruteForceAtEveryThreshold) {
     for (const double threshold : scores) {
       std::size_t tp = 0, fp = 0, fn = 0;
       for (const ScoredQuery& query : queries) {
-        if (query.score && *query.score >= threshold) {
-          if (query.has_truth && *query.error <= kTolerance)
-            ++tp;
-          else
-            ++fp;
-        } else if (query.has_truth) {
-          ++fn;
-        }
+        const bool accepted = query.score && *query.score >= threshold;
+        const bool right = accepted && query.has_truth && *query.error <= kTolerance;
+        tp += right ? 1 : 0;
+        fp += accepted && !right ? 1 : 0;
+        fn += query.has_truth && !right ? 1 : 0;
       }
       expect_point(*point, threshold, tp, fp, fn);
       const auto at = place::operating_point(queries, kTolerance, threshold);

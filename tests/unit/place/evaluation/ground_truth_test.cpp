@@ -142,4 +142,9 @@ TEST(PlaceError, SaysWhichTruthDoesNotHaveTheFrame) {
   EXPECT_THROW(place::place_error(one_sided, 0, 0, ErrorUnit::kMetres, 4), std::invalid_argument);
 }
 
+TEST(TrueReferenceFrame, IsExactWhereBothWalksGoAtOnePace) {
+  const place::LandmarkPairs pairs{.query_frame = {0, 110}, .reference_frame = {3, 113}};
+  for (int frame = 0; frame <= 110; ++frame) EXPECT_EQ(place::true_reference_frame(pairs, frame), frame + 3);
+}
+
 }  // namespace

@@ -140,7 +140,9 @@ TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
   EXPECT_EQ(traverse.pose_source, "truth.csv");
   EXPECT_EQ(traverse.frames, static_cast<std::int64_t>(known.place_px.size()));
   EXPECT_EQ(traverse.duration_s, known.walk.time_s.back());
-  ASSERT_EQ(traverse.thumbnails.size(), traverse.keyframes.size());
+  const vo::ImageStack* const thumbnails = place::thumbnails_of(traverse);
+  ASSERT_TRUE(thumbnails);
+  ASSERT_EQ(thumbnails->size(), traverse.keyframes.size());
   ASSERT_GT(traverse.keyframes.size(), 50U);
   for (std::size_t k = 0; k < traverse.keyframes.size(); ++k) {
     const auto& keyframe = traverse.keyframes[k];
@@ -148,7 +150,7 @@ TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
     EXPECT_EQ(keyframe.time_s, known.walk.time_s[frame]);
     EXPECT_EQ(keyframe.distance_m, known.place_px[frame] / 10);
     EXPECT_EQ(keyframe.pose->x_m, known.place_px[frame] / 10);
-    EXPECT_THAT(traverse.thumbnails[k], testing::ElementsAreArray(known.walk.thumbnails[frame]));
+    EXPECT_THAT((*thumbnails)[k], testing::ElementsAreArray(known.walk.thumbnails[frame]));
     // Each multiple of the unit has the frame nearest to it, which is within half the fastest step, 2.
     EXPECT_NEAR(keyframe.displacement, static_cast<double>(k) * route_.unit, 1) << k;
   }

@@ -1,0 +1,115 @@
+#include "command.hpp"
+#include "progress_bar.hpp"
+#include "run_directory.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <variant>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <place/describe/npy.hpp>
+#include <place/place.hpp>
+#include <place/stage_options.hpp>
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+#include <vo/io/atomic_file.hpp>
+
+namespace retrace {
+namespace {
+
+struct DescribeOptions {
+  place::Settings settings;
+  CommonOptions common;
+  std::string walk;
+  std::string route;
+  std::string output;
+};
+
+/// Numbers of descriptors in a row.
+std::size_t write(const std::string& path, const place::Descriptors& descriptors) {
+  if (const auto* images = std::get_if<vo::ImageStack>(&descriptors)) {
+    place::write_npy(path, images->pixels, images->image_size());
+    return images->image_size();
+  }
+  if (const auto* stack = std::get_if<place::ColumnStack>(&descriptors)) {
+    const place::FloatRows rows{.width = stack->descriptor_size(),
+                                .values = {stack->values.begin(), stack->values.end()}};
+    place::write_npy(path, rows);
+    return rows.width;
+  }
+  const auto& rows = std::get<place::FloatRows>(descriptors);
+  place::write_npy(path, rows);
+  return rows.width;
+}
+
+void describe(const DescribeOptions& options) {
+  vo::set_thread_count(options.settings.threads.value_or(0));
+  const std::string beside = options.output + ".csv";
+  for (const std::string& file : {options.output, beside}) {
+    check_writable(file);
+    if (std::filesystem::exists(file) && !options.common.force)
+      throw vo::Error(file, "exists already", "another --output, or --force to write over it");
+  }
+  place::Route route = options.route.empty() ? place::new_route(options.settings)
+                                             : place::read_route(options.route, {.previews = false});
+  place::Settings given = options.settings;
+  given.preview_width_px = 0;
+  const place::Settings settings = place::resolve(
+      given, {.purpose = place::Purpose::kRoute, .route = options.route.empty() ? nullptr : &route.settings});
+  vo::Walk walk;
+  {
+    ProgressBar bar;
+    walk = place::read(options.walk, settings, bar.callback());
+  }
+  for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
+  const place::SampledWalk sampled =
+      place::sample_walk(walk, place::stage_options(settings).sampling, &route);
+  for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
+  if (sampled.descriptors.size() != 1)
+    throw vo::Error("descriptor", fmt::format("is {}", *settings.descriptor), "one descriptor to write");
+
+  std::string csv = "frame,time_s\n";
+  for (const std::size_t frame : sampled.frames) csv += fmt::format("{},{:.6f}\n", frame, walk.time_s[frame]);
+  const std::size_t width = write(options.output, sampled.descriptors.front());
+  vo::write_file(beside, csv);
+  if (options.common.json) {
+    const nlohmann::ordered_json json{{"descriptors", options.output},
+                                      {"frames", beside},
+                                      {"descriptor", *settings.descriptor},
+                                      {"keyframes", sampled.frames.size()},
+                                      {"width", width}};
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{}: {} keyframes of {} frames, {} numbers each; their frames are in {}\n", options.output,
+             sampled.frames.size(), walk.frames(), width, beside);
+}
+
+}  // namespace
+
+std::function<void()> declare_describe(Arguments& arguments) {
+  auto options = std::make_shared<DescribeOptions>();
+  arguments.positional("walk", options->walk, "video file, folder of images, or camera:N");
+  arguments
+      .option("-o,--output", options->output, "file to write, walk.npy; frames and times go to walk.npy.csv")
+      .required();
+  arguments.option("--route", options->route,
+                   "route database whose vocabulary to take [learned from the walk itself]");
+  using enum place::SettingGroup;
+  arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral});
+  arguments.common(options->common);
+  arguments.footer(
+      "A row for each keyframe: float32, or uint8 of thumbnails. Descriptors of two walks are comparable "
+      "only "
+      "with one --route.\n"
+      "Examples:\n"
+      "  retrace describe day.mp4 -o day.npy --descriptor hog\n"
+      "  retrace describe night.mp4 -o night.npy --route route.db");
+  return [options] { describe(*options); };
+}
+
+}  // namespace retrace

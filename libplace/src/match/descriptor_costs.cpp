@@ -1,0 +1,75 @@
+#include "place/match/descriptor_costs.hpp"
+
+#include "place/match/cost_matrix.hpp"
+#include "place/match/float_costs.hpp"
+#include "place/match/shifted_cosine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace place {
+namespace {
+
+constexpr double kShiftWidth_px = 64;  // of the picture that shifts are given in
+
+int shift_in_columns(const DescriptorTraits& traits, std::optional<int> max_shift_px) {
+  if (!max_shift_px) return traits.max_shift;
+  const auto columns = static_cast<int>(std::lround(*max_shift_px * traits.columns / kShiftWidth_px));
+  return std::clamp(columns, 0, std::max(0, traits.columns - 1));
+}
+
+/// The leading channels of every column as a picture, for `candidates`.
+vo::ImageStack leading_channels(const ColumnStack& stack) {
+  const int channels = std::min(16, stack.channels);
+  vo::ImageStack images = vo::make_image_stack(channels, stack.columns, stack.size());
+  for (std::size_t i = 0; i < stack.size(); ++i) {
+    auto to = images[i].begin();
+    for (int column = 0; column < stack.columns; ++column) {
+      const std::int8_t* values = stack[i].data() + static_cast<std::ptrdiff_t>(column) * stack.channels;
+      to = std::transform(values, values + channels, to,
+                          [](std::int8_t value) { return static_cast<std::uint8_t>(value + 128); });
+    }
+  }
+  return images;
+}
+
+}  // namespace
+
+std::unique_ptr<CostSource> descriptor_costs(const Descriptors& queries, const Descriptors& references,
+                                             const DescriptorTraits& traits,
+                                             std::optional<int> max_shift_px) {
+  if (queries.index() != references.index())
+    throw std::invalid_argument("descriptor_costs: descriptors of one form expected");
+  if (const auto* images = std::get_if<vo::ImageStack>(&queries)) {
+    return std::make_unique<ThumbnailCosts>(
+        *images, std::get<vo::ImageStack>(references),
+        CostOptions{.max_shift_px = max_shift_px.value_or(traits.max_shift)});
+  }
+  if (const auto* stack = std::get_if<ColumnStack>(&queries)) {
+    const ShiftedCosineOptions options{.max_shift_columns = shift_in_columns(traits, max_shift_px)};
+    return std::make_unique<ShiftedCosine>(*stack, std::get<ColumnStack>(references), options);
+  }
+  return std::make_unique<FloatCosts>(std::get<FloatRows>(queries), std::get<FloatRows>(references),
+                                      traits.metric);
+}
+
+std::vector<std::size_t> candidates(const Descriptors& queries, const Descriptors& references,
+                                    const CandidateOptions& options) {
+  if (queries.index() != references.index())
+    throw std::invalid_argument("candidates: descriptors of one form expected");
+  if (const auto* images = std::get_if<vo::ImageStack>(&queries))
+    return candidates(*images, std::get<vo::ImageStack>(references), options);
+  if (const auto* stack = std::get_if<ColumnStack>(&queries)) {
+    CandidateOptions of_channels = options;
+    of_channels.pool_px = 1;
+    return candidates(leading_channels(*stack), leading_channels(std::get<ColumnStack>(references)),
+                      of_channels);
+  }
+  std::vector<std::size_t> all(count_of(references));
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+}  // namespace place
