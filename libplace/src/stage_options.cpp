@@ -98,7 +98,9 @@ void put_describing(const Settings& s, StageOptions& options) {
 
   const std::shared_ptr<const DescriptorSet> descriptors = make_descriptors(describe);
   options.sampling.descriptors = options.matching.descriptors = descriptors;
-  for (std::size_t i = 0; i < descriptors->size(); ++i) {
+  const bool records = std::ranges::any_of(
+      *descriptors, [](const auto& descriptor) { return descriptor->traits().records_frames; });
+  for (std::size_t i = 0; records && i < descriptors->size(); ++i) {
     options.walk.recorders.push_back(
         [descriptors, i](const vo::Frame& frame) { return (*descriptors)[i]->record(frame); });
     options.walk.colour_width_px =

@@ -75,6 +75,9 @@ std::string layer_of(cv::dnn::Net& net, const NetworkOptions& options) {
   const std::vector<std::string> names = net.getLayerNames();
   if (options.layer.empty()) return net.getUnconnectedOutLayersNames().back();
   if (std::ranges::find(names, options.layer) != names.end()) return options.layer;
+  // OpenCV puts this before the names that an ONNX file has.
+  const std::string of_onnx = "onnx_node!" + options.layer;
+  if (std::ranges::find(names, of_onnx) != names.end()) return of_onnx;
   // Those that have most in common with what was asked for; else the last ones.
   std::vector<std::string> alike;
   for (const std::string& name : names)

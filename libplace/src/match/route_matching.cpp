@@ -180,9 +180,9 @@ CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& trav
 }
 
 double prior_queries_of(const RouteMatchingOptions& options) {
+  const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
   double most = 0;
-  for (const auto& descriptor : *descriptors_of(options))
-    most = std::max(most, descriptor->traits().prior_queries);
+  for (const auto& descriptor : *descriptors) most = std::max(most, descriptor->traits().prior_queries);
   return most;
 }
 

@@ -15,6 +15,13 @@ namespace {
 using namespace test_support;
 using place::Settings;
 
+/// The walks below are thumbnails and nothing else.
+Settings by_thumbnails() {
+  Settings settings;
+  settings.descriptor = "thumbnail";
+  return settings;
+}
+
 class PlaceTest : public testing::Test {
  protected:
   Wall wall_{kWallPx, 1};
@@ -23,7 +30,7 @@ class PlaceTest : public testing::Test {
 };
 
 TEST_F(PlaceTest, FindsAWalkOnARoute) {
-  place::Route route = place::new_route();
+  place::Route route = place::new_route(by_thumbnails());
   const auto added = place::add(route, "day", day_.walk, survey_of(day_));
   EXPECT_EQ(added.index, 0U);
   EXPECT_GT(route.unit, 0);
@@ -51,7 +58,7 @@ TEST_F(PlaceTest, IsTheSameOnARouteReadBack) {
   Settings settings;
   settings.sequence_length = 6;  // of the search: the route keeps it for the walks to come
   settings.sampling_n = 4;
-  place::Route route = place::new_route(settings);
+  place::Route route = place::new_route(merged(settings, by_thumbnails()));
   place::add(route, "day", day_.walk);
   place::write_route(folder / "r.db", route);
   const place::Run one = place::localise(route, night_.walk);
@@ -63,7 +70,7 @@ TEST_F(PlaceTest, IsTheSameOnARouteReadBack) {
 }
 
 TEST_F(PlaceTest, ARunsSettingsRepeatIt) {
-  place::Route route = place::new_route();
+  place::Route route = place::new_route(by_thumbnails());
   place::add(route, "day", day_.walk);
   Settings settings;
   settings.sequence_length = 7;
@@ -78,13 +85,13 @@ TEST_F(PlaceTest, ARunsSettingsRepeatIt) {
 TEST_F(PlaceTest, AQueryIsSampledInTheRoutesUnit) {
   Settings settings;
   settings.sampling_n = 3;
-  place::Route route = place::new_route(settings);
+  place::Route route = place::new_route(merged(settings, by_thumbnails()));
   place::add(route, "day", day_.walk);
   EXPECT_EQ(place::localise(route, night_.walk).sampled.unit, route.unit);
 }
 
 TEST_F(PlaceTest, ATraverseIsReplacedOnlyIfAsked) {
-  place::Route route = place::new_route();
+  place::Route route = place::new_route(by_thumbnails());
   place::add(route, "day", day_.walk);
   EXPECT_THROW_WITH(place::add(route, "day", day_.walk), vo::Error,
                     "day: is a traverse of the route already");
@@ -98,21 +105,21 @@ TEST_F(PlaceTest, ATraverseIsReplacedOnlyIfAsked) {
 TEST_F(PlaceTest, RefusesWalksThatWereReadWithOtherSettings) {
   Settings settings;
   settings.thumbnail_width = 32;
-  place::Route route = place::new_route(settings);
+  place::Route route = place::new_route(merged(settings, by_thumbnails()));
   EXPECT_THROW(place::add(route, "day", day_.walk), std::invalid_argument);
   settings = {};
   settings.motion = "steps";
-  route = place::new_route(settings);
+  route = place::new_route(merged(settings, by_thumbnails()));
   EXPECT_THROW(place::add(route, "day", day_.walk), std::invalid_argument);  // no points were tracked
 }
 
 TEST_F(PlaceTest, RefusesARouteWithoutTraversesAndAWalkOfOneKeyframe) {
-  place::Route route = place::new_route();
+  place::Route route = place::new_route(by_thumbnails());
   EXPECT_THROW(place::localise(route, night_.walk), std::invalid_argument);
   Settings settings;
   settings.motion = "none";
   settings.every = 100000;
-  route = place::new_route(settings);
+  route = place::new_route(merged(settings, by_thumbnails()));
   EXPECT_THROW_WITH(place::add(route, "day", day_.walk), vo::Error, "gives a single keyframe");
 }
 

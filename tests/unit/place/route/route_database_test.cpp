@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <place/describe/quantise.hpp>
 #include <place/route/route_database.hpp>
 #include <place/version.hpp>
 #include <vo/base/error.hpp>
@@ -46,6 +47,12 @@ place::Traverse example_traverse(const std::string& name, std::size_t keyframes,
     traverse.keyframes.push_back(keyframe);
   }
   traverse.thumbnails = random_images(16, 8, keyframes, seed);
+  place::ColumnStack columns = place::make_column_stack(2, 5, keyframes);
+  for (std::size_t i = 0; i < columns.values.size(); ++i)
+    columns.values[i] = static_cast<std::int8_t>(static_cast<int>(i * seed % 255) - 127);
+  place::FloatRows rows = place::make_float_rows(3, keyframes);
+  for (std::size_t i = 0; i < rows.values.size(); ++i) rows.values[i] = -1.5F * static_cast<float>(i);
+  traverse.descriptors = {columns, rows, random_images(8, 4, keyframes, seed + 1)};
   return traverse;
 }
 
@@ -62,6 +69,7 @@ place::Route example_route() {
   route.traverses.push_back(example_traverse("", 0, 3));            // no keyframe
   route.traverses.push_back(example_traverse("short", 1, 4));
   route.traverses[1].surveyed = false;
+  route.learned = {{1, 2, 250}, {}, {7}};
   route.origin = {.latitude_deg = -33.85678, .longitude_deg = 151.21528};
   return route;
 }
@@ -79,6 +87,17 @@ void expect_equal(const place::Traverse& a, const place::Traverse& b) {
   EXPECT_EQ(a.thumbnails.width, b.thumbnails.width);
   EXPECT_EQ(a.thumbnails.height, b.thumbnails.height);
   EXPECT_EQ(a.thumbnails.pixels, b.thumbnails.pixels);
+  ASSERT_EQ(a.descriptors.size(), 3U);
+  ASSERT_EQ(b.descriptors.size(), 3U);
+  const auto &columns = std::get<place::ColumnStack>(a.descriptors[0]),
+             &others = std::get<place::ColumnStack>(b.descriptors[0]);
+  EXPECT_EQ(columns.columns, others.columns);
+  EXPECT_EQ(columns.channels, others.channels);
+  EXPECT_EQ(columns.values, others.values);
+  EXPECT_EQ(std::get<place::FloatRows>(a.descriptors[1]).values,
+            std::get<place::FloatRows>(b.descriptors[1]).values);
+  EXPECT_EQ(std::get<vo::ImageStack>(a.descriptors[2]).pixels,
+            std::get<vo::ImageStack>(b.descriptors[2]).pixels);
   ASSERT_EQ(a.keyframes.size(), b.keyframes.size());
   for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
     const place::Keyframe &j = a.keyframes[i], &k = b.keyframes[i];
@@ -97,6 +116,7 @@ void expect_equal(const place::Traverse& a, const place::Traverse& b) {
 
 void expect_equal(const place::Route& a, const place::Route& b) {
   EXPECT_EQ(a.settings, b.settings);
+  EXPECT_EQ(a.learned, b.learned);
   EXPECT_EQ(a.unit, b.unit);
   EXPECT_EQ(a.metric, b.metric);
   ASSERT_EQ(a.origin.has_value(), b.origin.has_value());
@@ -138,6 +158,7 @@ TEST(RouteDatabase, LeavesPreviewsOutWhereTheyAreNotWanted) {
   place::write_route(folder / "r.db", route);
   for (auto& traverse : route.traverses) {
     for (auto& keyframe : traverse.keyframes) keyframe.preview_jpeg.clear();
+    traverse.thumbnails = {};
   }
   expect_equal(place::read_route(folder / "r.db", {.previews = false}), route);
 }
@@ -185,8 +206,8 @@ TEST(RouteDatabase, RefusesAnotherProgramsDatabaseAndAnotherSchema) {
   std::string newer = bytes;
   newer[63] = static_cast<char>(place::kRouteSchemaVersion + 1);
   EXPECT_THROW_WITH(place::read_route(folder.write("newer.db", newer)), vo::Error,
-                    "newer.db: has schema version 4, written by another version of retrace; expected schema "
-                    "version 3; build the route again");
+                    "newer.db: has schema version 5, written by another version of retrace; expected schema "
+                    "version 4; build the route again");
   std::string other = bytes;
   other[71] = static_cast<char>(other[71] + 1);
   EXPECT_THROW_WITH(place::read_route(folder.write("other.db", other)), vo::Error,
@@ -235,6 +256,19 @@ TEST(RouteDatabase, FindsAFlippedBitOfAThumbnail) {
   bytes[found + 13] ^= 1;
   EXPECT_THROW_WITH(place::read_route(folder.write("r.db", bytes)), vo::Error,
                     "r.db: is damaged: a block of thumbnails does not fit its checksum");
+}
+
+TEST(RouteDatabase, FindsAFlippedBitOfADescriptor) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  for (auto& value : std::get<place::ColumnStack>(route.traverses[1].descriptors[0]).values) value = 0x5A;
+  place::write_route(folder / "r.db", route);
+  std::string bytes = read_file(folder / "r.db");
+  const std::size_t found = bytes.find(std::string(64, '\x5A'));
+  ASSERT_NE(found, std::string::npos);
+  bytes[found + 13] ^= 1;
+  EXPECT_THROW_WITH(place::read_route(folder.write("r.db", bytes)), vo::Error,
+                    "r.db: is damaged: a block of descriptors does not fit its checksum");
 }
 
 TEST(RouteDatabase, FindsThumbnailsWithoutAKeyframeAndCountsThatAreNotTrue) {
@@ -316,6 +350,12 @@ TEST(RouteDatabase, RefusesTraversesThatDoNotFit) {
   refused(route);
   route = example_route();
   route.traverses[1].thumbnails.width = 8;
+  refused(route);
+  route = example_route();
+  route.learned.pop_back();
+  refused(route);
+  route = example_route();
+  std::get<place::ColumnStack>(route.traverses[1].descriptors[0]).channels = 10;
   refused(route);
 }
 
