@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <spdlog/spdlog.h>
 
@@ -93,7 +94,6 @@ class Sweep {
   /// Runs what is missing; false if the user stopped it.
   bool run() {
     if (missing_.empty()) return true;
-    read_walks();
     if (!options_.settings.every) choose_every();
     ProgressBar bar;
     // Cells of one cost matrix stand together as the axes have them only by chance, so they are sorted.
@@ -147,17 +147,23 @@ class Sweep {
     return key;
   }
 
-  void read_walks() {
-    vo::WalkOptions walk = stages(missing_.front()).walk;
+  /// Both walks, with what a cell's descriptor keeps of them; read once for each descriptor.
+  const Walks& walks(const Cell& cell) {
+    const std::string descriptor = settings(cell).descriptor.value_or("");
+    const auto known = walks_.find(descriptor);
+    if (known != walks_.end()) return known->second;
+    vo::WalkOptions walk = stages(cell).walk;
     walk.preview_width_px = 0;
-    for (const Cell& cell : missing_) {  // what any of them needs
-      const vo::WalkOptions needed = stages(cell).walk;
+    for (const Cell& other : missing_) {  // what any of them needs
+      const vo::WalkOptions needed = stages(other).walk;
       walk.track_features |= needed.track_features;
       walk.visual_odometry |= needed.visual_odometry;
     }
     ProgressBar bar;
-    walks_.reference = vo::read_walk(options_.reference, walk, bar.callback());
-    walks_.query = vo::read_walk(options_.query, walk, bar.callback());
+    Walks& both = walks_[descriptor];
+    both.reference = vo::read_walk(options_.reference, walk, bar.callback());
+    both.query = vo::read_walk(options_.query, walk, bar.callback());
+    return both;
   }
 
   /// Without motion, as many keyframes as the first motion gives.
@@ -167,14 +173,14 @@ class Sweep {
       if (with_motion.motion == "none") continue;
       if (std::ranges::find(options_.motions, "none") != options_.motions.end() &&
           std::ranges::find(axes_, "every", &Axis::setting) == axes_.end())
-        every_ = every_like(walks_, with_motion);
+        every_ = every_like(walks(cell), with_motion);
       return;
     }
   }
 
-  std::optional<Sampled> sample_or_warn(const Cell& cell) const {
+  std::optional<Sampled> sample_or_warn(const Cell& cell) {
     try {
-      return sample(walks_, settings(cell));
+      return sample(walks(cell), settings(cell));
     } catch (const vo::Error& error) {
       spdlog::warn("motion {}: {}", cell.front(), error.what());
       return {};
@@ -218,8 +224,8 @@ class Sweep {
   SweepResults& results_;
   place::GroundTruth truth_;
   std::vector<Cell> missing_;
-  Walks walks_;
-  int every_ = 0;  ///< frames between keyframes without motion; 0: as the settings say
+  std::map<std::string, Walks> walks_;  ///< by descriptor
+  int every_ = 0;                       ///< frames between keyframes without motion; 0: as the settings say
 };
 
 }  // namespace

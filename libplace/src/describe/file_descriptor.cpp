@@ -18,14 +18,15 @@ constexpr double kNear_s = 0.5;
 
 class File final : public Descriptor {
  public:
-  explicit File(DescriptorFileOptions options) : options_(std::move(options)) {}
+  explicit File(DescriptorFileOptions options) : options_(std::move(options)) {
+    if (options_.path.empty())
+      throw vo::Error("descriptor-file", "is missing", "the walk's .npy file, with descriptor file");
+  }
 
   [[nodiscard]] DescriptorTraits traits() const override { return {.metric = options_.metric}; }
 
   [[nodiscard]] Descriptors describe(const KeyframeRecords& keyframes,
                                      std::span<const std::uint8_t>) const override {
-    if (options_.path.empty())
-      throw vo::Error("descriptor-file", "is missing", "the walk's .npy file, with descriptor file");
     const FloatRows rows = read_npy(options_.path);
     const std::string beside = options_.path + ".csv";
     const vo::CsvTable table = vo::CsvTable::read(beside);
