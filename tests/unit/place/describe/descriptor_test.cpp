@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <vo/base/error.hpp>
-#include <vo/image/patch_normalisation.hpp>
 
 namespace {
 
@@ -43,18 +42,6 @@ TEST(Select, TakesDescriptorsOfAnyForm) {
   EXPECT_THAT(std::get<place::ColumnStack>(place::select(stack, indices)).values,
               testing::ElementsAre(5, 6, 1, 2));
   EXPECT_THROW(place::select(rows, std::vector<std::size_t>{3}), std::out_of_range);
-}
-
-TEST(ThumbnailDescriptor, IsThePatchNormalisedThumbnail) {
-  const vo::PatchNormalisationOptions patch{.patch_px = 4};
-  const auto made = make_descriptors({.name = "thumbnail", .patch = patch});
-  const place::Descriptor* descriptor = made->front().get();
-  const place::KeyframeRecords keyframes = keyframes_of(*descriptor, 2, {});
-  EXPECT_TRUE(descriptor->learn(keyframes).empty());
-  const place::Descriptors described = descriptor->describe(keyframes, {});
-  EXPECT_EQ(std::get<vo::ImageStack>(described).pixels, keyframes.thumbnails.pixels);
-  EXPECT_EQ(std::get<vo::ImageStack>(descriptor->comparable(described)).pixels,
-            vo::patch_normalise(keyframes.thumbnails, patch).pixels);
 }
 
 }  // namespace
