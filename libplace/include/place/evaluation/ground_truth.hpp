@@ -24,8 +24,8 @@ LandmarkPairs read_pairs(const std::filesystem::path& path);
 /// none outside.
 std::optional<double> true_reference_frame(const LandmarkPairs& pairs, double query_frame);
 
-/// What says where the query truly is. Either `pairs`, or both walks' travelled distances;
-/// `reference_distance_m` may stand beside `pairs` to turn frames into metres.
+/// Where the query truly is. Either `pairs`, or both walks' travelled distances;
+/// `reference_distance_m` may be given with `pairs` to turn frames into metres.
 struct GroundTruth {
   std::optional<LandmarkPairs> pairs;
   std::vector<double> query_distance_m;      ///< by query frame; empty with `pairs`
@@ -44,7 +44,7 @@ struct PlaceError {
 /// Compares one match with the truth. With distances, a query has a true place if the reference comes within
 /// `tolerance` of its distance; the error in frames is to the nearest reference frame at that distance (a
 /// walker who stands still is there for many). Throws `vo::Error` if a frame is outside the truth,
-/// `std::invalid_argument` if the truth given cannot tell errors in `unit`. O(frames).
+/// `std::invalid_argument` if the truth given does not give errors in `unit`. O(frames).
 PlaceError place_error(const GroundTruth& truth, std::int64_t query_frame,
                        std::optional<std::int64_t> reference_frame, ErrorUnit unit, double tolerance);
 

@@ -34,14 +34,14 @@ struct KittiEvaluation {
 /// what differs in position and orientation is divided by the length. A stretch ends with the first frame
 /// beyond its length.
 ///
-/// `truth`, `estimate`: one for each frame, world_from_camera, in metres, else `std::invalid_argument`, as
-/// for lengths not above 0. Their worlds need not be the same. O(frames * lengths).
+/// `truth`, `estimate`: one for each frame, world_from_camera, in metres; their worlds need not be the same.
+/// Throws `std::invalid_argument` for other numbers of poses, or lengths not above 0. O(frames * lengths).
 KittiEvaluation evaluate_kitti(std::span<const vo::Pose3> truth,
                                std::span<const std::optional<vo::Pose3>> estimate,
                                const KittiEvaluationOptions& options = {});
 
-/// Metres in a unit of the estimate, by the ways over the first `length_m` metres of the truth from the first
-/// pose of the estimate on. None if the estimate has not all poses there or does not move.
+/// Metres in a unit of the estimate, from the path lengths over the first `length_m` metres of the truth from
+/// the first pose of the estimate on. None if the estimate has not all poses there or does not move.
 std::optional<double> metres_per_unit(std::span<const vo::Pose3> truth,
                                       std::span<const std::optional<vo::Pose3>> estimate, double length_m);
 

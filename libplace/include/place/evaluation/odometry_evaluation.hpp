@@ -9,7 +9,7 @@
 
 namespace place {
 
-/// Where a walker truly was, and where the odometry has him at the same moment.
+/// The true pose of a walker, and that of the odometry at the same moment.
 struct PosePair {
   double distance_m = 0;  ///< truly travelled since the beginning
   vo::Pose2 truth;
@@ -22,16 +22,16 @@ struct PosePair {
 std::vector<PosePair> pair_by_time(const vo::Trajectory& truth, std::span<const double> distance_m,
                                    const vo::Trajectory& estimate);
 
-/// A point of a way drawn on a map, metres.
+/// A point of a path drawn on a map, metres.
 struct WayPoint {
   double x_m = 0;
   double y_m = 0;
 };
 
-/// Pairs poses of one share of the whole way, for a truth without times: the estimate at 30 % of its length
-/// belongs where 30 % of the true way are done. So both begin and end together, as the recording does, and an
-/// estimate that is too long is seen to be so, as it would be by time. The true heading is that of the leg.
-/// One pair for each pose of the estimate by which it gets on. Throws `std::invalid_argument` for a way
+/// Pairs poses by their share of the whole path, for a truth without times: the estimate at 30 % of its
+/// length belongs to the point at 30 % of the true path. So both begin and end together, as the recording
+/// does, and an estimate that is too long shows as such, as it would by time. The true heading is that of the
+/// leg. One pair for each pose of the estimate by which it gets on. Throws `std::invalid_argument` for a path
 /// without length; an estimate without length has no pairs. O(n).
 std::vector<PosePair> pair_by_share(std::span<const WayPoint> way, const vo::Trajectory& estimate);
 

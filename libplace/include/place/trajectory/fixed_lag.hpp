@@ -15,10 +15,9 @@ struct FixedLagOptions {
   std::size_t lag = 60;  ///< nodes that are still open to change, 2 or more; half a minute of walking
 };
 
-/// `correct_drift` for a walk that is still going on: the same graph over the last nodes only. What the nodes
-/// that left it, and their fixes, say of the oldest one left stays as a prior (their marginal, a Schur
-/// complement of 6 x 6). As nothing is known before matches agree on where the walk is, all nodes until then
-/// are kept.
+/// `correct_drift` for a walk that is still going on: the same graph over the last nodes only. The nodes
+/// that left it, and their fixes, remain as a prior of the oldest node in it (their marginal, a 6 x 6 Schur
+/// complement). All nodes are kept until matches agree on where the walk is.
 class FixedLagCorrector {
  public:
   /// Throws `std::invalid_argument` for options that are not valid.
@@ -27,7 +26,7 @@ class FixedLagCorrector {
   FixedLagCorrector(FixedLagCorrector&&) noexcept;
   FixedLagCorrector& operator=(FixedLagCorrector&&) noexcept;
 
-  /// The next node of the walk and, where it was recognised, its fix, whose node is not looked at. Returns
+  /// The next node of the walk and, where it was recognised, its fix, whose `node` is ignored. Returns
   /// the poses that are final now: none, one, or a walk's whole beginning once it is known where it is.
   /// Solves where there is a fix: O(lag).
   std::vector<UncertainPose> push(const vo::TimedPose& odometry, const std::optional<PoseFix>& fix);

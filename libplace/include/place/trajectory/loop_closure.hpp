@@ -17,14 +17,14 @@ struct LoopClosureOptions {
   vo::PatchNormalisationOptions patch;
   ContrastEnhancementOptions enhancement;
   SequenceSearchOptions search;
-  double recent_m = 20;    ///< what was passed within so many metres of the way is no loop
+  double recent_m = 20;    ///< places passed within the last so many metres are no loop
   double least_score = 1;  ///< of a match, in deviations of the enhanced cost; most of a walk closes no loop
   double least_share = 0.6;  ///< of the matches of a sequence's length that go on along the same line
 };
 
-/// Where a walk comes back to what it passed before: the walk's keyframes searched for among those that are
-/// more than `recent_m` of the way back, as a query is on a route. A match alone is not believed: its
-/// neighbours must go along the earlier part as it does.
+/// Where a walk comes back to a place it passed before: the walk's keyframes are searched for among those
+/// more than `recent_m` back, as a query is on a route. A match alone is not trusted: its neighbours must
+/// follow the earlier part in the same direction.
 ///
 /// `thumbnails`: of the keyframes, grey; `travelled_m`: by keyframe, not decreasing. By increasing node; none
 /// for a walk shorter than `recent_m` and a sequence. Throws `std::invalid_argument` for another number of

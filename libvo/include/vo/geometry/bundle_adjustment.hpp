@@ -15,7 +15,7 @@ struct BundleObservation {
   ImagePoint at;  ///< on the image plane
 };
 
-/// Cameras, points, and who saw what. What is fixed stays as it is.
+/// Cameras, points, and which camera saw which point where. What is fixed is not changed.
 struct Bundle {
   std::vector<Pose3> poses;
   std::vector<cv::Vec3d> points;
@@ -31,8 +31,8 @@ struct Bundle {
 struct BundleOptions {
   double noise = 1e-3;  ///< standard deviation of an observation, on the image plane
   int max_iterations = 10;
-  double radial_mean = 0;   ///< what is known of the radial distortion beforehand
-  double radial_sigma = 0;  ///< its standard deviation; 0: it stays as it is
+  double radial_mean = 0;   ///< expected radial distortion
+  double radial_sigma = 0;  ///< its standard deviation; 0: it is not changed
 };
 
 /// Moves cameras and points to where they explain the observations best: least squares of the reprojection

@@ -14,22 +14,23 @@ namespace vo {
 struct ResectionOptions {
   double noise = 1e-3;     ///< standard deviation of a point on the image plane
   double max_off = 3;      ///< standard deviations beyond which a point does not fit
-  double min_share = 0.5;  ///< of the points that must fit, else it is tried from random samples
+  double min_share = 0.5;  ///< of the points that must fit; if fewer do, random samples are tried
   int seed = 1;            ///< of those
 };
 
-/// Where a camera is that sees known points.
+/// The pose of a camera that sees known points.
 struct Resection {
   Pose3 camera;
   std::vector<bool> fits;   ///< one for each point
   std::size_t inliers = 0;  ///< how many do
-  /// Covariance of the position as the points that fit tell it, row by row; zero if they do not.
+  /// Covariance of the position from the points that fit, row by row; zero if it cannot be computed.
   cv::Matx33d position_covariance = cv::Matx33d::zeros();
 };
 
 /// The pose from which points of the world are seen where they are: robust least squares from `start`
-/// (`adjust`), and if too few fit, from the best of random samples (P3P within USAC). `points`, `seen`: one
-/// of each, else `std::invalid_argument`. With fewer than 4 points it is `start`, and none fit. O(points).
+/// (`adjust`), and if too few fit, from the best of random samples (P3P within USAC). Throws
+/// `std::invalid_argument` unless `points` and `seen` are equally many. Fewer than 4 give `start`, and none
+/// fit. O(points).
 Resection resection(std::span<const cv::Vec3d> points, std::span<const ImagePoint> seen, const Pose3& start,
                     const ResectionOptions& options = {});
 

@@ -11,15 +11,16 @@
 
 namespace vo {
 
-/// How a camera turned between two views, if all that it did was turn.
+/// The rotation of a camera between two views, assuming that it did not travel.
 struct ViewRotation {
   cv::Matx33d rotation = cv::Matx33d::eye();  ///< first_from_second: the second camera's axes in the first's
   std::vector<double> off;  ///< how far each point is from where the turn takes it, on the image plane
 };
 
 /// The turn that explains most points best, by robust alignment of their rays (Cauchy's weights; Arun, Huang
-/// and Blostein 1987 in each round). `from`, `to`: the same points on both image planes, at least 2, else
-/// `std::invalid_argument`. `noise`: standard deviation of a point on the image plane. O(points).
+/// and Blostein 1987 in each round). `from`, `to`: the same points on both image planes. Throws
+/// `std::invalid_argument` for fewer than 2. `noise`: standard deviation of a point on the image plane.
+/// O(points).
 ViewRotation view_rotation(std::span<const ImagePoint> from, std::span<const ImagePoint> to, double noise);
 
 /// The geometry of two views of one rigid scene.
@@ -38,14 +39,14 @@ struct TwoViewOptions {
   int seed = 1;  ///< of the random samples
 };
 
-/// How the camera moved from one view to the next, up to the length of it, and where the points are.
+/// The motion of the camera from one view to the next, up to its length, and the positions of the points.
 ///
 /// Essential matrix and homography are both fitted (USAC; the same seed gives the same answer); the one with
 /// the lower GRIC (Torr, "An assessment of information criteria for motion model selection", 1997) is taken
 /// apart into a turn and a travel, and of the solutions the one that has most points in front of both
 /// cameras. None if too few points fit, or a second solution is about as good.
 ///
-/// `from`, `to`: the same points on both image planes, of one number, else `std::invalid_argument`.
+/// `from`, `to`: the same points on both image planes; `std::invalid_argument` unless equally many.
 std::optional<TwoViewGeometry> two_view_geometry(std::span<const ImagePoint> from,
                                                  std::span<const ImagePoint> to,
                                                  const TwoViewOptions& options = {});

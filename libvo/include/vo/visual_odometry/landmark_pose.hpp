@@ -20,7 +20,7 @@ struct LandmarkPoseOptions {
   int seed = 1;                   ///< of random samples
 };
 
-/// Where the camera is, by the landmarks that a picture shows, or why that cannot be told.
+/// The pose of the camera from the landmarks in a picture, or why it is not known.
 struct LandmarkPose {
   TrackLoss loss = TrackLoss::kNone;
   std::size_t landmarks = 0;  ///< followed, and with a position

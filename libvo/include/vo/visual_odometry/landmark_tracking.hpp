@@ -18,7 +18,7 @@ void add_corners(LandmarkMap& map, const cv::Mat& grey, const Camera& camera,
 
 /// Follows all landmarks that were seen in the picture before into the next; those not found are no longer
 /// followed. They are looked for where `predicted`, the next camera, would see them; without it, or without a
-/// position, as far on as they came the last time. See `follow`.
+/// position, the displacement of the last frame is assumed again. See `follow`.
 void follow_landmarks(LandmarkMap& map, const KltPyramid& before, const KltPyramid& after,
                       const Camera& camera, const std::optional<Pose3>& predicted,
                       const KltOptions& options = {});

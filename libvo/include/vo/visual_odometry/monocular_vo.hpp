@@ -29,7 +29,7 @@ struct MonocularVoOptions {
   double start_parallax_deg = 1.0;  ///< the median of the points, before a scene is begun
   std::size_t window = 8;           ///< keyframes adjusted together
   double radial_sigma = 0.02;       ///< radial distortion that calibration left over, standard deviation
-  double radial_step = 0.002;       ///< what one adjustment learns of it at the most; 0: nothing
+  double radial_step = 0.002;       ///< the most that one adjustment changes it by; 0: not at all
   double keyframe_travel = 0.08;    ///< travel since the last keyframe, as a share of the median depth
   double keyframe_share = 0.7;      ///< or landmarks still seen, as a share of those it saw
   std::size_t min_points = 20;      ///< fewer points followed: lost
@@ -46,18 +46,18 @@ struct MonocularVoOptions {
   [[nodiscard]] bool is_valid(std::string* error) const;
 };
 
-/// Monocular visual odometry (SSS 3.5 uses ORB-SLAM's, Mur-Artal et al. 2015, whose plan this follows, on
-/// points that are followed instead of matched): from pictures to how far the camera moved in each frame, in
+/// Monocular visual odometry (SSS 3.5 uses ORB-SLAM, Mur-Artal et al. 2015, whose plan this follows, but
+/// its points are tracked, not matched): from pictures to how far the camera moved in each frame, in
 /// a unit that lasts until it is lost.
 ///
 /// Corners are followed from frame to frame. The first keyframe and a later one, as soon as the points shift
 /// against each other, give the geometry and the first landmarks, whose median depth is the unit of length;
 /// from then on each frame's pose comes from the landmarks that it sees, new ones are placed from keyframes
 /// whose poses are known, so that the unit lasts, and the last keyframes are adjusted together. A camera that
-/// stands or only turns has displacement 0. Where a frame cannot be told it is lost, for a reason; the next
-/// ones are tried again from the last that could, for as long as `max_gap_s`, so that a bad frame ends no
-/// unit. Meanwhile points of the new view are followed as well: what comes first, the old scene or a new
-/// segment with two views that tell one, goes on.
+/// does not move or only turns has displacement 0. A frame whose pose cannot be found is lost, with a reason;
+/// the next ones are tried from the last one found, for up to `max_gap_s`, so that a bad frame does not end a
+/// unit. Meanwhile points of the new view are followed as well, and whichever succeeds first goes on: the old
+/// scene, or a new segment begun from two views.
 class MonocularVo {
  public:
   /// Throws `std::invalid_argument` for options out of range.

@@ -16,7 +16,7 @@ struct WaitingFrame {
   };
   std::size_t frame = 0;                      ///< index in the walk
   std::vector<Seen> seen;                     ///< the landmarks followed
-  cv::Matx33d rotation = cv::Matx33d::eye();  ///< first_from_this, if all the camera did was turn
+  cv::Matx33d rotation = cv::Matx33d::eye();  ///< first_from_this, assuming the camera only turned
   double off = 0;  ///< how far points are from where that turn takes them: median, on the image plane
 };
 
@@ -35,12 +35,12 @@ struct SceneStartOptions {
 /// Places the first landmarks, from the first keyframe and the last of the waiting frames, which becomes a
 /// keyframe (`two_view_geometry`); their median depth is the unit of length. Then adjusts both and finds the
 /// frames in between. Returns the segment so far, from the first keyframe to the last frame; empty if the
-/// views do not tell their geometry, or too little parallax, and the map is as it was.
+/// geometry of the views is ambiguous or the parallax too small; the map is then as it was.
 std::vector<SegmentFrame> begin_scene(LandmarkMap& map, const std::vector<WaitingFrame>& waiting,
                                       const LandmarkMapOptions& map_options,
                                       const SceneStartOptions& options);
 
-/// True if the camera stood, or only turned, in the frames that wait: their points moved as one, over
+/// True if the camera did not move, or only turned, in the waiting frames: their points moved as one, over
 /// `seconds` or a turn in which those of a moving camera would not have.
 bool stood_or_turned(const std::vector<WaitingFrame>& waiting, double seconds, double noise);
 

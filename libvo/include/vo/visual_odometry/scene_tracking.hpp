@@ -41,25 +41,25 @@ struct SceneTrackingOptions {
 };
 
 /// Follows the landmarks from the picture of a scene's last frame to that of a later one, and finds the
-/// camera by them; lost too if it would have jumped. If it is lost, the scene is as it was. O(landmarks).
+/// camera by them; a jump counts as lost. If it is lost, the scene is as it was. O(landmarks).
 LandmarkPose locate(TrackedScene& scene, std::size_t frame, const KltPyramid& last, const KltPyramid& next,
                     const Camera& camera, const SceneTrackingOptions& options);
 
-/// Takes a frame into the scene that was located; those left out since the last have no pose. Makes it a
+/// Adds a located frame to the scene; frames left out since the last one have no pose. Makes it a
 /// keyframe where the camera has moved on, or sees too little of what it knew: adds landmarks, and adjusts
 /// the last ones. `grey`: its picture.
 void go_on(TrackedScene& scene, std::size_t frame, const Resection& found, const cv::Mat& grey,
            const Camera& camera, const SceneTrackingOptions& options);
 
-/// Makes ready for the frames after a keyframe, the last frame: forgets landmarks that no longer matter, adds
-/// others.
+/// Prepares for the frames after a keyframe, which is the last frame: forgets landmarks that no longer
+/// matter, adds others.
 void renew_landmarks(TrackedScene& scene, const cv::Mat& grey, const Camera& camera,
                      const SceneTrackingOptions& options);
 
-/// Finds how high the keyframes left over are above the ground, as the scene ends.
+/// Finds how high the remaining keyframes are above the ground, when the scene ends.
 void finish_heights(TrackedScene& scene, const SceneTrackingOptions& options);
 
-/// True if the camera hardly moved of late.
+/// True if the camera hardly moved in the last frames.
 bool stands(const TrackedScene& scene);
 
 }  // namespace vo

@@ -9,7 +9,7 @@
 
 namespace vo {
 
-/// A pose as a keyframe sees it, so that it goes with the keyframe when that is adjusted.
+/// A pose relative to a keyframe, so that it moves with the keyframe when that is adjusted.
 struct AnchoredPose {
   std::size_t keyframe = 0;
   Pose3 in_keyframe;  ///< keyframe_from_camera
@@ -23,9 +23,10 @@ struct SegmentFrame {
   double sigma = 0;                    ///< of its displacement
 };
 
-/// Writes the frames of a segment down, now that its keyframes are as good as they get: a frame between two
-/// keyframes is where both put it, by its distance in frames. The first frame of a segment keeps what the
-/// track has of it, where it is part of the segment before as well. `frames`: consecutive; all in the track.
+/// Writes the frames of a segment into the track once its keyframes are final: the pose of a frame between
+/// two keyframes is interpolated between what both say, by its distance in frames. The first frame of a
+/// segment keeps what the track has of it, if it is part of the segment before as well. `frames`:
+/// consecutive; all in the track.
 void write_segment(std::span<const SegmentFrame> frames, const std::vector<Keyframe>& keyframes, int segment,
                    DisplacementTrack& track);
 
