@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(cmake g++ ninja-build libopencv-dev libavformat-dev libswscale-dev libeigen3-dev libceres-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
   libspdlog-dev libfmt-dev libflann-dev liblz4-dev libjs-chart.js)
 if [[ "${1:-}" == --tests ]]; then
-  packages+=(libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev libfaiss-dev clang-format python3 ffmpeg bc
+  packages+=(libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev libfaiss-dev clang-format clang-tidy python3 ffmpeg bc
     chromium chromium-driver python3-selenium g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static)
 fi
 
