@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # Installs what is missing of the Debian packages that retrace needs. Sourced by quickstart.sh and tests/run.sh.
-#   setup.sh [--tests]     with --tests also what only the tests and benches need
+#   setup.sh [--tests | --benches]     with --tests also what the tests need, with --benches what the benches compare with
 set -euo pipefail
 
 packages=(cmake g++ ninja-build libopencv-dev libavformat-dev libswscale-dev libeigen3-dev libceres-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev
   libspdlog-dev libfmt-dev libflann-dev liblz4-dev libjs-chart.js)
 if [[ "${1:-}" == --tests ]]; then
-  packages+=(libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev libfaiss-dev clang-format clang-tidy python3 ffmpeg bc
+  packages+=(libgtest-dev libgmock-dev clang-format clang-tidy python3 ffmpeg bc
     chromium chromium-driver python3-selenium g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static)
+fi
+if [[ "${1:-}" == --benches ]]; then
+  packages+=(libbenchmark-dev libdlib-dev libfaiss-dev ffmpeg bc python3)
 fi
 
 missing=()

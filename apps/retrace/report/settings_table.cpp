@@ -10,7 +10,7 @@ namespace retrace {
 void put_settings(Page& page, const std::filesystem::path& config) {
   std::ifstream file(config);
   if (!file) return;
-  // `to_toml` writes a comment, then `name = value`, or `# name =` for what was not set.
+  // Each setting has a comment above it; `name = value` was set, `# name = value` was not.
   std::vector<std::array<std::string, 3>> rows;
   std::string line, comment;
   while (std::getline(file, line)) {
