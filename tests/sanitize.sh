@@ -2,10 +2,30 @@
 # The unit tests of the libraries under AddressSanitizer and UndefinedBehaviorSanitizer, those that are quick enough: tests
 # of whole walks take minutes here and are left to the other builds.
 #   bash tests/sanitize.sh [gtest filter]     by default all but the slow ones
+# One process for each core, at most RETRACE_SANITIZE_S seconds (default 180); what was not reached is no failure.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 slow=MonocularVo.*:SceneTracking.MeasuresTheHeight*:RouteDatabase.AnyDamage*:SearchStreamed.*:FixedLag.IsAsGood*:LocaliserTest.Shrinks*
 cmake --preset asan >/dev/null
 cmake --build --preset asan --target unit_tests
-ASAN_OPTIONS=detect_leaks=1 build/asan/bin/unit_tests --gtest_brief=1 --gtest_filter="${1:--$slow}"
+
+GTEST_TOTAL_SHARDS=$(nproc)
+export GTEST_TOTAL_SHARDS
+shards=()
+for ((shard = 0; shard < GTEST_TOTAL_SHARDS; ++shard)); do
+  GTEST_SHARD_INDEX=$shard timeout "${RETRACE_SANITIZE_S:-180}" build/asan/bin/unit_tests --gtest_brief=1 \
+    --gtest_filter="${1:--$slow}" &
+  shards+=($!)
+done
+status=0
+for shard in "${shards[@]}"; do
+  result=0
+  wait "$shard" || result=$?
+  case $result in
+    0) ;;
+    124) echo "time is up; the last tests were not run" ;;
+    *) status=$result ;;
+  esac
+done
+exit "$status"
