@@ -6,7 +6,8 @@
 
 namespace retrace {
 
-/// The settings of a saved configuration (see settings_file.hpp), under a heading; nothing if there is no such file.
+/// The settings of a saved configuration (see settings_file.hpp), under a heading; nothing if there is no
+/// such file.
 void put_settings(Page& page, const std::filesystem::path& config);
 
 }  // namespace retrace
