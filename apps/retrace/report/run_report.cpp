@@ -77,9 +77,8 @@ void put_operating_points(Page& page, const RunTruth& truth) {
 
 const std::string_view kCounting =
     "TP: accepted and within tolerance of the true place. FP: accepted and not, also where the query has no "
-    "true place. FN: with a true place and no TP, whether refused, unmatched or wrong. Precision = TP / (TP "
-    "+ "
-    "FP), recall = TP / (TP + FN). Every distinct score is a threshold.";
+    "true place. FN: with a true place and no TP, whether refused, unmatched or wrong. "
+    "Precision = TP / (TP + FP), recall = TP / (TP + FN). Every distinct score is a threshold.";
 
 std::string name_of(place::ErrorUnit unit) {
   return unit == place::ErrorUnit::kMetres ? "metres" : "reference frames";
