@@ -99,6 +99,9 @@ void build(BuildOptions& options) {
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   const std::optional<place::Survey> survey = survey_of(options, walk, route);
+  if (survey) {
+    for (const std::string& warning : survey->warnings) spdlog::warn("{}", warning);
+  }
   const place::AddedTraverse added =
       place::add(route, options.name, walk, survey, settings, options.common.force);
   for (const std::string& warning : added.warnings) spdlog::warn("{}", warning);

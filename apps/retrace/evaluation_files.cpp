@@ -93,7 +93,7 @@ std::string cell_of(const std::optional<double>& value) {
 }
 
 bool read_optional(std::string_view cell, std::optional<double>& value) {
-  value = vo::csv_number(cell);
+  value = vo::parse_number(cell);
   return value || cell.empty();
 }
 
@@ -103,8 +103,8 @@ constexpr std::array kErrorColumns{
     ErrorColumn{"query_frame", [](const ErrorRow& r) { return fmt::format("{}", r.query_frame); }},
     ErrorColumn{"query_time_s", [](const ErrorRow& r) { return fmt::format("{:.6f}", r.query_time_s); },
                 [](ErrorRow& r, std::string_view cell) {
-                  r.query_time_s = vo::csv_number(cell).value_or(0);
-                  return vo::csv_number(cell).has_value();
+                  r.query_time_s = vo::parse_number(cell).value_or(0);
+                  return vo::parse_number(cell).has_value();
                 },
                 kNumber},
     ErrorColumn{"score", [](const ErrorRow& r) { return cell_of(r.query.score); },

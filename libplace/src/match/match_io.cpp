@@ -23,7 +23,7 @@ Place& place_in(Match& match) {
 }
 
 bool read_index(std::string_view cell, std::int64_t& index) {
-  const std::optional<double> number = vo::csv_number(cell);
+  const std::optional<double> number = vo::parse_number(cell);
   constexpr double kExact = 9e15;  // whole numbers that a double holds
   if (!number || *number < 0 || *number != std::floor(*number) || *number > kExact) return false;
   index = static_cast<std::int64_t>(*number);
@@ -31,7 +31,7 @@ bool read_index(std::string_view cell, std::int64_t& index) {
 }
 
 bool read_number(std::string_view cell, double& value) {
-  const std::optional<double> number = vo::csv_number(cell);
+  const std::optional<double> number = vo::parse_number(cell);
   if (number) value = *number;
   return number.has_value();
 }

@@ -58,6 +58,7 @@ struct Walk {
   /// By recorder, one for each frame.
   std::vector<std::vector<std::vector<std::uint8_t>>> records;
   std::optional<DisplacementTrack> track;  ///< by visual odometry or from a file, where there is one
+  std::optional<double> start_utc_s;       ///< seconds since 1970 at the first frame, where its file says it
   std::vector<std::string> warnings;       ///< what a user should know of the recording
 
   [[nodiscard]] std::size_t frames() const { return time_s.size(); }

@@ -26,12 +26,29 @@ Camera camera_from_fov(int width_px, int height_px, double fov_deg) {
 Camera camera_of_recording(const std::optional<Camera>& calibrated, int width_px, int height_px,
                            double fov_deg) {
   if (!calibrated) return camera_from_fov(width_px, height_px, fov_deg);
-  if (calibrated->width_px != width_px || calibrated->height_px != height_px) {
-    throw Error("camera calibration",
-                fmt::format("is of {}x{} pixels", calibrated->width_px, calibrated->height_px),
-                fmt::format("{}x{}, as the recording", width_px, height_px));
+  Camera camera = *calibrated;
+  if (camera.width_px == 0) {
+    constexpr double kMiddle = 0.15;  // of width and height: lenses are centred to a few hundredths
+    if (std::abs(camera.cx_px / width_px - 0.5) > kMiddle ||
+        std::abs(camera.cy_px / height_px - 0.5) > kMiddle) {
+      throw Error("camera calibration",
+                  fmt::format("does not say its size, and its principal point ({:.1f}, {:.1f}) is not in the "
+                              "middle of {}x{} pixels",
+                              camera.cx_px, camera.cy_px, width_px, height_px),
+                  "one of the recording's size");
+    }
+    camera.width_px = width_px;
+    camera.height_px = height_px;
   }
-  return *calibrated;
+  if (camera.width_px == width_px && camera.height_px == height_px) return camera;
+  const Camera scaled = resized(camera, width_px);
+  if (std::abs(scaled.height_px - height_px) > 1) {
+    throw Error("camera calibration", fmt::format("is of {}x{} pixels", camera.width_px, camera.height_px),
+                fmt::format("{}x{}, as the recording, or of the same shape", width_px, height_px));
+  }
+  camera = scaled;
+  camera.height_px = height_px;
+  return camera;
 }
 
 Camera resized(const Camera& camera, int width_px) {
@@ -59,7 +76,11 @@ std::vector<ImagePoint> undistort(const Camera& camera, const std::vector<ImageP
   std::vector<cv::Point2d> distorted;
   for (const ImagePoint& pixel : pixels) distorted.emplace_back(pixel.x, pixel.y);
   std::vector<cv::Point2d> straight;
-  cv::undistortPoints(distorted, straight, k, camera.distortion);
+  if (camera.lens == LensModel::kEquidistant) {
+    cv::fisheye::undistortPoints(distorted, straight, k, camera.distortion);
+  } else {
+    cv::undistortPoints(distorted, straight, k, camera.distortion);
+  }
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {straight[i].x, straight[i].y};
   return points;
 }

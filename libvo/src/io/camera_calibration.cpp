@@ -1,10 +1,15 @@
 #include "vo/io/camera_calibration.hpp"
 
+#include "io/flat_yaml.hpp"
 #include "vo/base/error.hpp"
+#include "vo/io/text_file.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
@@ -12,49 +17,197 @@
 namespace vo {
 namespace {
 
-constexpr std::string_view kForm = "a camera calibration of OpenCV: image_width, image_height, camera_matrix";
+constexpr std::string_view kForm =
+    "a camera calibration of OpenCV, ROS, Kalibr or ORB-SLAM (image_width, image_height, camera_matrix, ...)";
 
-cv::Mat matrix(const cv::FileStorage& file, const std::string& name) {
-  cv::Mat values;
-  file[name] >> values;
-  if (!values.empty()) values.convertTo(values, CV_64F);
+/// A calibration as it stands in a file, whoever wrote it.
+struct Calibration {
+  double width = 0, height = 0;              ///< 0: not said
+  std::array<double, 4> focal_and_centre{};  ///< fx fy cx cy
+  std::string model;                         ///< of camera and distortion, in the writer's words
+  std::vector<double> distortion;
+};
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](unsigned char c) { return std::tolower(c); });
+  return result;
+}
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, FlatYaml values)
+      : path_(path.string()), values_(std::move(values)) {}
+
+  [[nodiscard]] bool has(const std::string& key) const { return values_.contains(key); }
+
+  [[nodiscard]] std::string text(const std::string& key) const {
+    const auto found = values_.find(key);
+    return found == values_.end() ? std::string() : found->second;
+  }
+
+  [[nodiscard]] std::vector<double> numbers(const std::string& key) const {
+    const auto numbers = numbers_of(text(key));
+    if (!numbers) throw Error(path_, fmt::format("{} is '{}'", key, printable(text(key))), "numbers");
+    return *numbers;
+  }
+
+  [[nodiscard]] std::optional<double> number(const std::string& key) const {
+    const std::vector<double> all = has(key) ? numbers(key) : std::vector<double>();
+    return all.size() == 1 ? std::optional(all[0]) : std::nullopt;
+  }
+
+ private:
+  std::string path_;
+  FlatYaml values_;
+};
+
+/// The first of two keys that the file has.
+std::string either(const Reader& file, const std::string& a, const std::string& b) {
+  return file.has(a) ? a : b;
+}
+
+Calibration kalibr(const Reader& file, const std::string& path, const std::string& camera) {
+  Calibration c;
+  const std::vector<double> size = file.numbers(camera + ".resolution");
+  const std::vector<double> intrinsics = file.numbers(camera + ".intrinsics");
+  const std::string projection = lower(file.text(camera + ".camera_model"));
+  c.model = projection == "pinhole" ? lower(file.text(camera + ".distortion_model")) : projection;
+  if (projection == "pinhole" && intrinsics.size() != 4)
+    throw Error(path, fmt::format("has {} intrinsics", intrinsics.size()), "4: fx fy cx cy");
+  if (projection == "pinhole") std::ranges::copy(intrinsics, c.focal_and_centre.begin());
+  if (size.size() == 2) {
+    c.width = size[0];
+    c.height = size[1];
+  }
+  c.distortion = file.numbers(camera + ".distortion_coeffs");
+  return c;
+}
+
+Calibration orb_slam(const Reader& file, const std::string& path, const std::string& camera) {
+  Calibration c{.model = lower(file.text("Camera.type"))};
+  constexpr std::array kNames{"fx", "fy", "cx", "cy"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const auto value = file.number(fmt::format("{}.{}", camera, kNames[i]));
+    if (!value) throw Error(path, fmt::format("has no {}.{}", camera, kNames[i]), kForm);
+    c.focal_and_centre[i] = *value;
+  }
+  c.width = file.number("Camera.width").value_or(0);
+  c.height = file.number("Camera.height").value_or(0);
+  const bool fisheye = c.model == "kannalabrandt8";
+  for (const char* name :
+       fisheye ? std::array{"k1", "k2", "k3", "k4", ""} : std::array{"k1", "k2", "p1", "p2", "k3"}) {
+    const auto value = file.number(fmt::format("{}.{}", camera, name));
+    if (value) c.distortion.push_back(*value);
+  }
+  if (c.model == "rectified") c.distortion.clear();
+  return c;
+}
+
+Calibration opencv_or_ros(const Reader& file, const std::string& path) {
+  Calibration c;
+  c.width = file.number(either(file, "image_width", "width")).value_or(0);
+  c.height = file.number(either(file, "image_height", "height")).value_or(0);
+  if (c.width < 1 || c.height < 1) throw Error(path, "has no image_width and image_height", kForm);
+  const std::string matrix = either(file, "camera_matrix.data", either(file, "K", "k"));
+  const std::vector<double> k = file.numbers(matrix);
+  if (k.size() != 9) throw Error(path, "has no 3x3 camera_matrix", kForm);
+  c.focal_and_centre = {k[0], k[4], k[2], k[5]};
+  c.model = lower(file.text("distortion_model"));
+  if (const std::string camera_model = lower(file.text(either(file, "camera_model", "model_type")));
+      !camera_model.empty() && camera_model != "pinhole")
+    c.model = camera_model;
+  if (file.number("fisheye_model").value_or(0) != 0) c.model = "fisheye";
+  c.distortion = file.numbers(either(file, "distortion_coefficients.data", either(file, "D", "d")));
+  return c;
+}
+
+/// OpenCV's XML and JSON, as if they were YAML.
+FlatYaml by_opencv(const std::filesystem::path& path) {
+  const auto list = [](const cv::Mat& matrix) {
+    cv::Mat values;
+    matrix.convertTo(values, CV_64F);
+    std::string text;
+    for (auto value = values.begin<double>(); value != values.end<double>(); ++value)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", *value);
+    return text;
+  };
+  try {
+    const cv::FileStorage file(path.string(), cv::FileStorage::READ);
+    if (!file.isOpened()) throw Error(path.string(), "cannot be read", kForm);
+    FlatYaml values;
+    for (const char* key : {"image_width", "image_height", "fisheye_model"}) {
+      if (file[key].isInt()) values[key] = std::to_string(static_cast<int>(file[key]));
+    }
+    for (const char* key : {"camera_model", "distortion_model"}) {
+      if (file[key].isString()) values[key] = file[key].string();
+    }
+    for (const char* key : {"camera_matrix", "distortion_coefficients"}) {
+      cv::Mat matrix;
+      if (!file[key].isNone()) file[key] >> matrix;
+      if (!matrix.empty()) values[fmt::format("{}.data", key)] = list(matrix);
+    }
+    return values;
+  } catch (const cv::Exception&) {
+    throw Error(path.string(), "is no XML or JSON that OpenCV reads", kForm);
+  }
+}
+
+FlatYaml values_of(const std::filesystem::path& path) {
+  const std::vector<TextLine> lines = read_text_lines(path, kForm);
+  const auto first =
+      std::ranges::find_if(lines, [](const TextLine& line) { return !trimmed(line.text).empty(); });
+  if (first != lines.end() && (trimmed(first->text)[0] == '<' || trimmed(first->text)[0] == '{'))
+    return by_opencv(path);
+  FlatYaml values = read_flat_yaml(lines);
+  if (values.empty()) throw Error(path.string(), "is no YAML, XML or JSON", kForm);
   return values;
+}
+
+LensModel lens_of(const std::string& path, const std::string& model) {
+  for (const char* known : {"", "none", "pinhole", "rectified", "plumb_bob", "rational_polynomial", "radtan"})
+    if (model == known) return LensModel::kOpenCv;
+  for (const char* known : {"equidistant", "fisheye", "kannalabrandt8"})
+    if (model == known) return LensModel::kEquidistant;
+  throw Error(path, fmt::format("is of the camera model '{}'", printable(model)),
+              "a pinhole camera with OpenCV's distortion, or an equidistant fisheye");
 }
 
 }  // namespace
 
 Camera read_camera_calibration(const std::filesystem::path& path) {
   const std::string name = path.string();
-  if (!std::filesystem::exists(path)) throw Error(name, "does not exist", kForm);
-  try {
-    const cv::FileStorage file(name, cv::FileStorage::READ);
-    if (!file.isOpened()) throw Error(name, "cannot be read", kForm);
-    Camera camera;
-    file["image_width"] >> camera.width_px;
-    file["image_height"] >> camera.height_px;
-    if (camera.width_px < 1 || camera.height_px < 1)
-      throw Error(name, "has no image_width and image_height", kForm);
-    const cv::Mat k = matrix(file, "camera_matrix");
-    if (k.size() != cv::Size(3, 3)) throw Error(name, "has no 3x3 camera_matrix", kForm);
-    camera.fx_px = k.at<double>(0, 0);
-    camera.fy_px = k.at<double>(1, 1);
-    camera.cx_px = k.at<double>(0, 2);
-    camera.cy_px = k.at<double>(1, 2);
-    if (!(camera.fx_px > 0) || !(camera.fy_px > 0)) {
-      throw Error(name, fmt::format("has focal lengths {} and {}", camera.fx_px, camera.fy_px),
-                  "pixels, above 0");
-    }
-    const cv::Mat distortion = matrix(file, "distortion_coefficients");
-    constexpr std::array<std::size_t, 6> kCounts{0, 4, 5, 8, 12, 14};
-    if (std::ranges::find(kCounts, distortion.total()) == kCounts.end()) {
-      throw Error(name, fmt::format("has {} distortion_coefficients", distortion.total()),
-                  "0, 4, 5, 8, 12 or 14");
-    }
-    if (!distortion.empty()) camera.distortion.assign(distortion.begin<double>(), distortion.end<double>());
-    return camera;
-  } catch (const cv::Exception&) {
-    throw Error(name, "is no YAML, XML or JSON that OpenCV reads", kForm);
+  const Reader file(path, values_of(path));
+  Calibration c;
+  if (file.has("cam0.camera_model")) {
+    c = kalibr(file, name, "cam0");
+  } else if (file.has("Camera.fx") || file.has("Camera.type")) {
+    c = orb_slam(file, name, file.has("Camera.fx") ? "Camera" : "Camera1");
+  } else if (file.has("Camera1.fx")) {
+    c = orb_slam(file, name, "Camera1");
+  } else {
+    c = opencv_or_ros(file, name);
   }
+  Camera camera{.lens = lens_of(name, c.model)};
+  camera.width_px = static_cast<int>(std::lround(c.width));
+  camera.height_px = static_cast<int>(std::lround(c.height));
+  camera.fx_px = c.focal_and_centre[0];
+  camera.fy_px = c.focal_and_centre[1];
+  camera.cx_px = c.focal_and_centre[2];
+  camera.cy_px = c.focal_and_centre[3];
+  if (!(camera.fx_px > 0) || !(camera.fy_px > 0)) {
+    throw Error(name, fmt::format("has focal lengths {} and {}", camera.fx_px, camera.fy_px),
+                "pixels, above 0");
+  }
+  constexpr std::array<std::size_t, 6> kCounts{0, 4, 5, 8, 12, 14};
+  const bool fisheye = camera.lens == LensModel::kEquidistant;
+  if (fisheye ? c.distortion.size() != 4 : std::ranges::find(kCounts, c.distortion.size()) == kCounts.end()) {
+    throw Error(name, fmt::format("has {} distortion_coefficients", c.distortion.size()),
+                fisheye ? "4, of a fisheye" : "0, 4, 5, 8, 12 or 14");
+  }
+  if (std::ranges::any_of(c.distortion, [](double k) { return k != 0; }) || fisheye)
+    camera.distortion = std::move(c.distortion);
+  return camera;
 }
 
 }  // namespace vo

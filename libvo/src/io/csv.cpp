@@ -1,11 +1,12 @@
+#include "vo/io/csv.hpp"
+
 #include "vo/base/error.hpp"
-#include "vo/io/csv_columns.hpp"
+#include "vo/io/text_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,60 +14,131 @@
 namespace vo {
 namespace {
 
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kSpace);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+/// The cells of a line, without the quotes around them.
+std::vector<std::string> split(std::string_view line, char separator) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += line[++i];  // a doubled quote is one of the cell's
+    } else if (quoted) {
+      if (c == '"') {
+        quoted = false;
+      } else {
+        cells.back() += c;
+      }
+    } else if (c == '"' && trimmed(cells.back()).empty()) {
+      quoted = true;
+    } else if (c == separator) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  for (std::string& cell : cells) cell = trimmed(cell);
+  return cells;
 }
 
-std::vector<std::string> split(std::string_view line) {
-  std::vector<std::string> cells;
-  for (std::size_t begin = 0;;) {
-    const std::size_t comma = line.find(',', begin);
-    cells.emplace_back(trim(line.substr(begin, comma - begin)));
-    if (comma == std::string_view::npos) return cells;
-    begin = comma + 1;
+/// Commas, semicolons or tabs, whichever a header has most of outside quotes.
+char separator_of(std::string_view header) {
+  constexpr std::array kSeparators{',', ';', '\t'};
+  std::array<std::size_t, kSeparators.size()> count{};
+  bool quoted = false;
+  for (const char c : header) {
+    if (c == '"') quoted = !quoted;
+    for (std::size_t i = 0; !quoted && i < kSeparators.size(); ++i) count[i] += c == kSeparators[i] ? 1 : 0;
   }
+  return kSeparators[static_cast<std::size_t>(std::ranges::max_element(count) - count.begin())];
+}
+
+bool all_empty(const std::vector<std::string>& cells) {
+  return std::ranges::all_of(cells, [](const std::string& cell) { return cell.empty(); });
+}
+
+/// Whether a `#` line is the header of the rows after it: names over as many numbers.
+bool heads(std::string_view comment, std::string_view next_line) {
+  const char separator = separator_of(comment);
+  const auto names = split(comment, separator), values = split(next_line, separator);
+  const auto is_number = [](const std::string& cell) { return parse_number(cell, true).has_value(); };
+  return names.size() > 1 && names.size() == values.size() && std::ranges::none_of(names, is_number) &&
+         std::ranges::all_of(values, is_number);
+}
+
+/// The lines of a file that say something, the header first, which `separator` is that of.
+std::vector<TextLine> lines_from_header(const std::filesystem::path& path, char& separator) {
+  std::vector<TextLine> lines = read_text_lines(path, "a CSV file");
+  std::erase_if(lines, [](const TextLine& line) { return trimmed(line.text).empty(); });
+  std::size_t first = 0;
+  std::optional<char> said;
+  for (; first < lines.size(); ++first) {
+    const std::string_view text = trimmed(lines[first].text);
+    if (text.starts_with("sep=") && text.size() <= 5) {
+      said = text.size() == 5 ? text[4] : '\t';  // whose tab was trimmed
+    } else if (!text.starts_with('#')) {
+      break;
+    } else if (first + 1 < lines.size() && heads(text.substr(1), lines[first + 1].text)) {
+      lines[first].text = text.substr(1);
+      break;
+    }
+  }
+  lines.erase(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first));
+  if (lines.empty()) throw Error(path.string(), "is empty", "a CSV file with a header line");
+  separator = said.value_or(separator_of(lines[0].text));
+  return lines;
 }
 
 }  // namespace
 
-std::optional<double> csv_number(std::string_view cell) {
+std::optional<double> parse_number(std::string_view text, bool decimal_commas) {
+  std::string with_point(trimmed(text));
+  if (decimal_commas && with_point.find('.') == std::string::npos) std::ranges::replace(with_point, ',', '.');
+  const char* begin = with_point.data();
+  const char* const end = begin + with_point.size();
+  if (begin + 1 < end && *begin == '+' && begin[1] != '-') ++begin;
   double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  if (error != std::errc{} || rest != end || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
-CsvTable CsvTable::read(const std::filesystem::path& path) {
+CsvTable CsvTable::read(const std::filesystem::path& path, UnevenRows uneven) {
   CsvTable table;
   table.path_ = path.string();
-  if (!std::filesystem::exists(path)) throw Error(table.path_, "does not exist", "a CSV file");
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) throw Error(table.path_, "cannot be read", "a CSV file");
-
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    std::string_view content = line;
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (number == 1 && content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
-    if (trim(content).empty()) continue;
-    std::vector<std::string> cells = split(content);
-    if (table.header_.empty()) {
-      table.header_ = std::move(cells);
+  char separator = ',';
+  const std::vector<TextLine> lines = lines_from_header(path, separator);
+  table.header_ = split(lines[0].text, separator);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (trimmed(lines[i].text).starts_with('#')) continue;
+    std::vector<std::string> cells = split(lines[i].text, separator);
+    if (all_empty(cells)) continue;
+    if (cells.size() != table.header_.size()) {
+      if (uneven == UnevenRows::kRefuse) {
+        throw Error(fmt::format("{}: line {}", table.path_, lines[i].number),
+                    fmt::format("has {} cells", cells.size()),
+                    fmt::format("{} as in the header", table.header_.size()));
+      }
+      ++table.left_out_;
       continue;
     }
-    if (cells.size() != table.header_.size()) {
-      throw Error(fmt::format("{}: line {}", table.path_, number), fmt::format("has {} cells", cells.size()),
-                  fmt::format("{} as in the header", table.header_.size()));
-    }
     table.cells_.push_back(std::move(cells));
-    table.lines_.push_back(number);
+    table.lines_.push_back(lines[i].number);
   }
-  if (file.bad()) throw Error(table.path_, "cannot be read to its end");
-  if (table.header_.empty()) throw Error(table.path_, "is empty", "a CSV file with a header line");
+  table.find_decimal_mark(separator);
   return table;
+}
+
+void CsvTable::find_decimal_mark(char separator) {
+  // Where commas do not separate, one in a number is its decimal mark. Where they do, a quoted "1,234" may be
+  // a thousand: only other groups than of three digits say that the file has decimal commas.
+  decimal_commas_ = separator != ',';
+  for (std::size_t row = 0; row < cells_.size() && !decimal_commas_; ++row) {
+    for (const std::string& cell : cells_[row]) {
+      const std::size_t comma = cell.rfind(',');
+      if (comma != std::string::npos && cell.size() - comma - 1 != 3 && parse_number(cell, true))
+        decimal_commas_ = true;
+    }
+  }
 }
 
 bool CsvTable::has(std::string_view column) const {
@@ -99,11 +171,18 @@ std::vector<std::optional<double>> CsvTable::optional_numbers(std::string_view c
   std::vector<std::optional<double>> values;
   values.reserve(cells.size());
   for (std::size_t row = 0; row < cells.size(); ++row) {
-    values.push_back(csv_number(cells[row]));
+    values.push_back(parse_number(cells[row], decimal_commas_));
     if (!values.back() && !cells[row].empty()) {
       throw Error(where(row), fmt::format("{} is '{}'", column, cells[row]), "a finite number");
     }
   }
+  return values;
+}
+
+std::vector<std::optional<double>> CsvTable::numbers_where_they_are(std::string_view column) const {
+  std::vector<std::optional<double>> values;
+  values.reserve(cells_.size());
+  for (const std::string& cell : text(column)) values.push_back(parse_number(cell, decimal_commas_));
   return values;
 }
 

@@ -1,15 +1,16 @@
 #include "vo/io/pose_series_io.hpp"
 
+#include "io/pose_lines.hpp"
+#include "io/pose_reading.hpp"
 #include "vo/base/error.hpp"
+#include "vo/base/median.hpp"
 #include "vo/io/csv.hpp"
+#include "vo/io/text_file.hpp"
+#include "vo/io/trajectory_axes.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <numbers>
-#include <sstream>
 #include <stdexcept>
-#include <string_view>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -18,171 +19,169 @@
 namespace vo {
 namespace {
 
-/// A line of numbers, and where it is.
-struct NumberLine {
-  std::string where;
-  std::vector<double> values;
+constexpr std::string_view kForms = "TUM's lines of 8 numbers, KITTI's of 12, or a CSV with a header";
+
+/// Gives the poses of KITTI's form the times of their frames.
+void add_times(Reading& reading, const std::filesystem::path& path) {
+  const std::vector<NumberLine> lines = read_number_lines(path, "one time in seconds a line");
+  for (const NumberLine& line : lines) {
+    if (line.problem || line.values.size() != 1) {
+      throw Error(line.where, line.problem.value_or(fmt::format("has {} numbers", line.values.size())),
+                  "one time in seconds");
+    }
+  }
+  if (lines.size() != reading.lines) {
+    throw Error(path.string(), fmt::format("has {} times", lines.size()),
+                fmt::format("{}, one for each pose", reading.lines));
+  }
+  for (FilePose& pose : reading.poses) pose.time = lines[pose.frame].values[0];
+}
+
+/// What a file's times are in, as their size says it: poses are a thousandth of a second to a minute apart,
+/// and clocks that count from 1970 have passed 1.4e9 s.
+struct TimeUnit {
+  double per_second = 1;
+  std::string_view name;
 };
 
-/// The beginning of what a file holds, which may be no text at all.
-std::string printable(std::string_view cell) {
-  constexpr std::size_t kMost = 40;
-  std::string text(cell.substr(0, kMost));
-  for (char& c : text) c = c >= ' ' && c <= '~' ? c : '?';
-  return text + (cell.size() > kMost ? "..." : "");
+TimeUnit time_unit(const Reading& reading) {
+  constexpr TimeUnit kNano{1e9, "nanoseconds"}, kMicro{1e6, "microseconds"}, kMilli{1e3, "milliseconds"};
+  if (reading.nanoseconds) return kNano;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < reading.poses.size(); ++i)
+    steps.push_back(std::abs(reading.poses[i].time - reading.poses[i - 1].time));
+  const double step = steps.empty() ? 0 : median(std::move(steps));
+  const double latest = reading.poses.back().time;
+  if (latest >= 1e17) return kNano;
+  if (latest >= 1e14) return kMicro;
+  if (step >= 1e6) return kNano;  // before milliseconds since 1970: an hour in nanoseconds is 3.6e12
+  if (latest >= 1e11) return kMilli;
+  if (step >= 1e3) return kMicro;
+  return {};
 }
 
-std::vector<NumberLine> read_lines(const std::filesystem::path& path, std::string_view expected) {
-  std::ifstream file(path);
-  if (!std::filesystem::is_regular_file(path) || !file)
-    throw Error(path.string(), "cannot be read", expected);
-  std::vector<NumberLine> lines;
-  std::string text;
-  for (std::size_t number = 1; std::getline(file, text); ++number) {
-    const std::size_t begin = text.find_first_not_of(" \t\r");
-    if (begin == std::string::npos || text[begin] == '#') continue;
-    NumberLine line{.where = fmt::format("{}: line {}", path.string(), number), .values = {}};
-    std::istringstream cells(text);
-    for (std::string cell; cells >> cell;) {
-      std::istringstream parser(cell);
-      double value = 0;
-      if (!(parser >> value) || !parser.eof() || !std::isfinite(value))
-        throw Error(line.where, fmt::format("'{}' is no number", printable(cell)), expected);
-      line.values.push_back(value);
+/// Sorts by time and leaves out what has a time that is there already.
+void put_in_order(Reading& reading, PoseSeries& series, const std::string& name) {
+  const TimeUnit unit = time_unit(reading);
+  if (!unit.name.empty())
+    series.warnings.push_back(fmt::format("{}: times in {}, converted to seconds", name, unit.name));
+  std::size_t unsorted = 0;
+  for (std::size_t i = 1; i < reading.poses.size(); ++i)
+    unsorted += reading.poses[i].time < reading.poses[i - 1].time ? 1 : 0;
+  if (unsorted > 0) {
+    std::ranges::stable_sort(reading.poses, {}, &FilePose::time);
+    series.warnings.push_back(
+        fmt::format("{}: {} times are before those of the line above; sorted", name, unsorted));
+  }
+  for (const FilePose& pose : reading.poses) {
+    const double time_s = pose.time / unit.per_second;
+    if (!series.time_s.empty() && time_s <= series.time_s.back()) {
+      reading.leave_out(name, fmt::format("has the time {:.10g} s twice", time_s));
+      continue;
     }
-    lines.push_back(std::move(line));
-  }
-  if (lines.empty()) throw Error(path.string(), "has no pose", expected);
-  return lines;
-}
-
-void push_time(PoseSeries& series, const std::string& where, double time_s) {
-  if (!series.time_s.empty() && time_s <= series.time_s.back()) {
-    throw Error(where, fmt::format("time {} s does not follow {} s", time_s, series.time_s.back()),
-                "strictly increasing times");
-  }
-  series.time_s.push_back(time_s);
-}
-
-cv::Matx33d from_quaternion(const std::string& where, double x, double y, double z, double w) {
-  const Eigen::Quaterniond q(w, x, y, z);
-  constexpr double kLeastLength = 0.5;
-  if (q.norm() < kLeastLength) throw Error(where, "has no unit quaternion", "qx qy qz qw of length 1");
-  cv::Matx33d rotation;
-  cv::eigen2cv(Eigen::Matrix3d(q.normalized().toRotationMatrix()), rotation);
-  return rotation;
-}
-
-constexpr std::string_view kForms = "TUM's lines of 8 numbers, KITTI's of 12, or a CSV with a header";
-constexpr std::size_t kTumCells = 8, kKittiCells = 12;
-
-PoseSeries tum_series(const std::vector<NumberLine>& lines, BodyAxes axes) {
-  PoseSeries series{.axes = axes};
-  for (const NumberLine& line : lines) {
-    if (line.values.size() != kTumCells) {
-      throw Error(line.where, fmt::format("has {} numbers", line.values.size()),
-                  "8: time x y z qx qy qz qw, as in the first");
-    }
-    const auto* v = line.values.data();
-    push_time(series, line.where, v[0]);
-    series.poses.push_back(
-        {.rotation = from_quaternion(line.where, v[4], v[5], v[6], v[7]), .position = {v[1], v[2], v[3]}});
-  }
-  return series;
-}
-
-PoseSeries kitti_series(const std::vector<NumberLine>& lines) {
-  PoseSeries series;
-  for (const NumberLine& line : lines) {
-    if (line.values.size() != kKittiCells) {
-      throw Error(line.where, fmt::format("has {} numbers", line.values.size()),
-                  "12: a 3x4 matrix row by row, as in the first");
-    }
-    const auto& v = line.values;
-    const cv::Matx33d rotation(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]);
-    constexpr double kTolerance = 1e-2;
-    if (cv::norm(rotation * rotation.t() - cv::Matx33d::eye()) > kTolerance ||
-        cv::determinant(rotation) < 0) {
-      throw Error(line.where, "is no rotation and position", "an orthonormal 3x3 part of determinant 1");
-    }
-    series.poses.push_back({.rotation = rotation, .position = {v[3], v[7], v[11]}});
-  }
-  return series;
-}
-
-void add_times(PoseSeries& series, const std::filesystem::path& path) {
-  const std::vector<NumberLine> lines = read_lines(path, "one time in seconds a line");
-  for (const NumberLine& line : lines) {
-    if (line.values.size() != 1)
-      throw Error(line.where, fmt::format("has {} numbers", line.values.size()), "one time in seconds");
-    push_time(series, line.where, line.values[0]);
-  }
-  if (series.time_s.size() != series.poses.size()) {
-    throw Error(path.string(), fmt::format("has {} times", series.time_s.size()),
-                fmt::format("{}, one for each pose", series.poses.size()));
+    series.time_s.push_back(time_s);
+    series.poses.push_back(pose.pose);
   }
 }
 
-PoseSeries csv_series(const std::filesystem::path& path, BodyAxes axes) {
-  const CsvTable table = CsvTable::read(path);
-  const std::vector<double> none(table.rows(), 0);
-  const std::vector<double> time_s = table.numbers("time_s"), x_m = table.numbers("x_m"),
-                            y_m = table.numbers("y_m"), z_m = table.has("z_m") ? table.numbers("z_m") : none;
-  PoseSeries series{.axes = BodyAxes::kNone};
-  std::array<std::vector<double>, 4> q;
-  std::vector<double> heading_deg;
-  if (table.has("qw")) {
-    series.axes = axes;
-    q = {table.numbers("qx"), table.numbers("qy"), table.numbers("qz"), table.numbers("qw")};
-  } else if (table.has("heading_deg")) {
+void take_axes(PoseSeries& series, const std::optional<FoundAxes>& known, TrajectoryAxes said) {
+  const FoundAxes found = known ? *known : find_axes(series.poses);
+  series.axes = found.body;
+  series.ground = found.ground;
+  if (known || said == TrajectoryAxes::kAuto) return;
+  if (said == TrajectoryAxes::kVehicle) {
     series.axes = BodyAxes::kVehicle;
-    heading_deg = table.numbers("heading_deg");
+    series.ground = GroundPlane::kXY;
+  } else {
+    series.axes = BodyAxes::kCamera;
+    if (found.ground == GroundPlane::kUnknown || found.body == BodyAxes::kVehicle)
+      series.ground = GroundPlane::kXZ;
   }
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    push_time(series, table.where(i), time_s[i]);
-    Pose3 pose{.position = {x_m[i], y_m[i], z_m[i]}};
-    if (!q[0].empty()) pose.rotation = from_quaternion(table.where(i), q[0][i], q[1][i], q[2][i], q[3][i]);
-    if (!heading_deg.empty()) {
-      const double yaw = (90 - heading_deg[i]) * std::numbers::pi / 180;
-      pose.rotation = {std::cos(yaw), -std::sin(yaw), 0, std::sin(yaw), std::cos(yaw), 0, 0, 0, 1};
-    }
-    series.poses.push_back(pose);
-  }
-  if (series.poses.empty()) throw Error(path.string(), "has no pose", "rows of time_s,x_m,y_m");
-  return series;
 }
 
-/// True if the first line that says something has a comma.
+/// True if the first line that says something separates names by commas, semicolons or tabs; EuRoC has them
+/// in a comment.
 bool is_csv(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin != std::string::npos && line[begin] != '#') return line.find(',') != std::string::npos;
+  for (const TextLine& line : read_text_lines(path, kForms)) {
+    const std::string_view text = trimmed(line.text);
+    const bool separated = text.find_first_of(",;\t") != std::string_view::npos;
+    if (text.empty()) continue;
+    if (text.starts_with('#')) {
+      if (separated && text.starts_with("#timestamp")) return true;
+      continue;
+    }
+    const std::string_view first = text.substr(0, text.find_first_of(",;\t "));
+    return separated && !parse_number(first) && first != "nan" && first != "NaN";
   }
   return false;
 }
 
 }  // namespace
 
-PoseSeries read_pose_series(const std::filesystem::path& path, BodyAxes axes,
-                            const std::optional<std::filesystem::path>& kitti_times) {
-  PoseSeries series;
+PoseSeries read_pose_series(const std::filesystem::path& path, const PoseFileOptions& options) {
+  const std::string name = path.string();
+  Reading reading;
+  std::optional<FoundAxes> known;
+  bool timed = true;
   if (is_csv(path)) {
-    series = csv_series(path, axes);
+    reading = read_pose_csv(path, known);
   } else {
-    const std::vector<NumberLine> lines = read_lines(path, kForms);
-    const std::size_t cells = lines[0].values.size();
-    if (cells != kTumCells && cells != kKittiCells)
-      throw Error(lines[0].where, fmt::format("has {} numbers", cells), kForms);
-    series = cells == kTumCells ? tum_series(lines, axes) : kitti_series(lines);
+    const std::vector<NumberLine> lines = read_number_lines(path, kForms);
+    const auto whole = std::ranges::find_if(lines, [](const NumberLine& line) {
+      return !line.problem && (line.values.size() == kTumCells || line.values.size() == kKittiCells);
+    });
+    timed = whole == lines.end() || whole->values.size() == kTumCells;
+    reading = timed ? read_tum_lines(lines) : read_kitti_lines(lines);
   }
-  series.source = path.string();
-  if (kitti_times) {
-    if (!series.time_s.empty())
-      throw Error(path.string(), "has times of its own", "none beside it, or poses in KITTI's form");
-    add_times(series, *kitti_times);
+  if (options.kitti_times) {
+    if (timed) throw Error(name, "has times of its own", "none beside it, or poses in KITTI's form");
+    add_times(reading, *options.kitti_times);
+    timed = true;
   }
+  if (reading.lines == 0) throw Error(name, "has no pose", kForms);
+  if (2 * reading.left_out >= reading.lines) throw Error(reading.first_where, reading.first_problem, kForms);
+
+  PoseSeries series{.source = name};
+  if (timed) {
+    put_in_order(reading, series, name);
+  } else {
+    series.frames = reading.lines;
+    for (const FilePose& pose : reading.poses) {
+      series.frame.push_back(pose.frame);
+      series.poses.push_back(pose.pose);
+    }
+  }
+  if (reading.left_out > 0) {
+    series.warnings.push_back(fmt::format("{}: {} of {} lines are left out; the first: {} {}", name,
+                                          reading.left_out, reading.lines, reading.first_where,
+                                          reading.first_problem));
+  }
+  if (reading.rescaled > 0) {
+    series.warnings.push_back(
+        fmt::format("{}: {} quaternions are not of length 1; normalised", name, reading.rescaled));
+  }
+  take_axes(series, known, options.axes);
   return series;
+}
+
+Trajectory planar(const PoseSeries& series) {
+  if (series.time_s.size() != series.poses.size())
+    throw std::invalid_argument("planar: one time for each pose expected");
+  if (series.ground == GroundPlane::kUnknown) {
+    throw Error(series.source, "does not show which of its axes is up",
+                "--axes vehicle (x forward, z up) or --axes camera (x right, y down, z forward)");
+  }
+  const int north = series.ground == GroundPlane::kXY ? 1 : 2;
+  const int forward = series.axes == BodyAxes::kVehicle ? 0 : 2;
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < series.poses.size(); ++i) {
+    const Pose3& pose = series.poses[i];
+    // Both grounds have x to the right of north, seen from above.
+    const double heading_rad = std::atan2(pose.rotation(0, forward), pose.rotation(north, forward));
+    trajectory.push_back({series.time_s[i], {pose.position[0], pose.position[north], heading_rad}});
+  }
+  if (series.axes == BodyAxes::kNone) head_along_path(trajectory, kPathHeading_m);
+  return trajectory;
 }
 
 std::string to_tum(const std::vector<std::optional<Pose3>>& poses, const std::vector<double>& time_s,

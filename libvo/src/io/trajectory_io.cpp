@@ -2,12 +2,10 @@
 
 #include "vo/base/error.hpp"
 #include "vo/io/csv.hpp"
+#include "vo/io/pose_series_io.hpp"
 
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -19,16 +17,6 @@ constexpr double kRadPerDeg = std::numbers::pi / 180;
 /// Headings turn clockwise from +y, yaw counter-clockwise from +x.
 double yaw_from_heading(double heading_rad) {
   return std::numbers::pi / 2 - heading_rad;
-}
-double heading_from_yaw(double yaw_rad) {
-  return wrap_angle_rad(std::numbers::pi / 2 - yaw_rad);
-}
-
-void check_increasing(const std::string& where, const Trajectory& before, double time_s) {
-  if (!before.empty() && time_s <= before.back().time_s) {
-    throw Error(where, fmt::format("time {} s does not follow {} s", time_s, before.back().time_s),
-                "strictly increasing times");
-  }
 }
 
 }  // namespace
@@ -49,40 +37,23 @@ WalkTruth read_truth(const std::filesystem::path& path) {
     if (truth.frame[i] != static_cast<std::int64_t>(i)) {
       throw Error(table.where(i), fmt::format("frame is {}", truth.frame[i]), fmt::format("{}", i));
     }
-    check_increasing(table.where(i), truth.poses, time_s[i]);
+    if (i > 0 && time_s[i] <= time_s[i - 1]) {
+      throw Error(table.where(i), fmt::format("time {} s does not follow {} s", time_s[i], time_s[i - 1]),
+                  "strictly increasing times");
+    }
+    if (i > 0 && truth.distance_m[i] < truth.distance_m[i - 1]) {
+      throw Error(table.where(i),
+                  fmt::format("distance {} m is less than the {} m before", truth.distance_m[i],
+                              truth.distance_m[i - 1]),
+                  "the distance travelled since the start, which never decreases");
+    }
     truth.poses.push_back({time_s[i], {x_m[i], y_m[i], wrap_angle_rad(heading_deg[i] * kRadPerDeg)}});
   }
   return truth;
 }
 
 Trajectory read_tum(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!std::filesystem::is_regular_file(path) || !file) {
-    throw Error(path.string(), "cannot be read", "a trajectory in TUM's form");
-  }
-  Trajectory trajectory;
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string::npos || line[begin] == '#') continue;
-    const std::string where = fmt::format("{}: line {}", path.string(), number);
-    std::istringstream cells(line);
-    std::array<double, 8> value{};
-    for (double& cell : value) {
-      if (!(cells >> cell)) throw Error(where, "is not 8 numbers", "time x y z qx qy qz qw");
-    }
-    if (std::string rest; cells >> rest)
-      throw Error(where, "has more than 8 cells", "time x y z qx qy qz qw");
-    const auto [time_s, x_m, y_m, z_m, qx, qy, qz, qw] = value;
-    check_increasing(where, trajectory, time_s);
-    if (std::hypot(std::hypot(qx, qy), std::hypot(qz, qw)) < 0.5) {
-      throw Error(where, "has no unit quaternion", "qx qy qz qw of length 1");
-    }
-    const double yaw_rad = std::atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz));
-    trajectory.push_back({time_s, {x_m, y_m, heading_from_yaw(yaw_rad)}});
-  }
-  if (trajectory.empty()) throw Error(path.string(), "has no pose", "lines of time x y z qx qy qz qw");
-  return trajectory;
+  return planar(read_pose_series(path, {.axes = TrajectoryAxes::kVehicle}));
 }
 
 std::string to_tum(const Trajectory& trajectory, std::string_view comment) {

@@ -11,6 +11,13 @@
 namespace vo {
 namespace {
 
+/// The pose of a frame, of a series without times.
+std::optional<Pose3> pose_of_frame(const PoseSeries& series, std::size_t frame) {
+  const auto found = std::ranges::lower_bound(series.frame, frame);
+  if (found == series.frame.end() || *found != frame) return std::nullopt;
+  return series.poses[static_cast<std::size_t>(found - series.frame.begin())];
+}
+
 std::optional<Pose3> pose_at(const PoseSeries& series, double time_s,
                              const ExternalTrajectoryOptions& options) {
   const auto after = std::ranges::lower_bound(series.time_s, time_s);
@@ -43,8 +50,8 @@ void check(const PoseSeries& series, std::span<const double> time_s,
            const ExternalTrajectoryOptions& options) {
   if (!(options.time_tolerance_s >= 0) || !(options.max_gap_s >= 0) || !(options.relative_sigma >= 0))
     throw std::invalid_argument("external_trajectory: tolerances of 0 or more expected");
-  if (series.time_s.empty() && series.poses.size() != time_s.size()) {
-    throw Error(series.source, fmt::format("has {} poses without times", series.poses.size()),
+  if (series.time_s.empty() && series.frames != time_s.size()) {
+    throw Error(series.source, fmt::format("has {} poses without times", series.frames),
                 fmt::format("{}, one for each frame, or poses with times", time_s.size()));
   }
 }
@@ -59,8 +66,9 @@ DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const 
   int segment = 0;
   bool any = false;
   for (std::size_t i = 0; i < time_s.size(); ++i) {
-    const std::optional<Pose3> pose =
-        series.time_s.empty() ? series.poses[i] : pose_at(series, options.start_s + time_s[i], options);
+    const std::optional<Pose3> pose = series.time_s.empty()
+                                          ? pose_of_frame(series, i)
+                                          : pose_at(series, options.start_s + time_s[i], options);
     const std::optional<Pose3> before = i > 0 ? track.poses[i - 1] : pose;
     const bool gap = i > 0 && time_s[i] - time_s[i - 1] > options.max_gap_s;
     if (pose && any && (!before || gap)) ++segment;

@@ -68,6 +68,7 @@ struct Survey {
   bool surveyed = true;                           ///< false: the walk's own odometry
   std::vector<std::optional<vo::Pose2>> pose;     ///< by frame
   std::vector<std::optional<double>> distance_m;  ///< by frame
+  std::vector<std::string> warnings;              ///< what a user should know of the file
 };
 
 /// Makes a traverse of a sampled walk. Throws `std::invalid_argument` if the survey is of another number of

@@ -5,7 +5,14 @@
 
 namespace vo {
 
-/// A pinhole camera with OpenCV's distortion model. Pixel (0, 0) is the centre of the upper left pixel.
+/// How a lens bends rays.
+enum class LensModel {
+  kOpenCv,       ///< a pinhole with radial and tangential distortion [OpenCV, module calib3d]
+  kEquidistant,  ///< a fisheye: radius theta (1 + k1 theta^2 + ... + k4 theta^8), theta the ray's angle off
+                 ///< the axis [Kannala, Brandt: A generic camera model ..., 2006; cv::fisheye]
+};
+
+/// A camera. Pixel (0, 0) is the centre of the upper left pixel.
 struct Camera {
   int width_px = 0;
   int height_px = 0;
@@ -13,14 +20,18 @@ struct Camera {
   double fy_px = 0;
   double cx_px = 0;  ///< principal point
   double cy_px = 0;
-  std::vector<double> distortion;  ///< k1 k2 p1 p2 [k3 [k4 k5 k6 ...]]; empty: none
+  std::vector<double> distortion;  ///< k1 k2 p1 p2 [k3 [k4 k5 k6 ...]], a fisheye's k1 k2 k3 k4; empty: none
+  LensModel lens = LensModel::kOpenCv;
 };
 
 /// The undistorted camera of a horizontal field of view, square pixels, principal point in the middle (PVO
 /// 5.3(6)). Throws `std::invalid_argument` unless the size is positive and the angle in [10, 170] degrees.
 Camera camera_from_fov(int width_px, int height_px, double fov_deg);
 
-/// The calibrated camera, which must be of that size (`vo::Error`); without one, that of the field of view.
+/// The calibrated camera, brought to the recording's size. That must have the shape it was calibrated at, to
+/// a pixel; a calibration that does not say its size (0x0) is taken to be of the recording's, whose middle
+/// must then be near its principal point; otherwise `vo::Error`. Without one, the camera of the field of
+/// view.
 Camera camera_of_recording(const std::optional<Camera>& calibrated, int width_px, int height_px,
                            double fov_deg);
 

@@ -1,30 +1,47 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vo {
 
+/// What `CsvTable::read` does with a row that has more or fewer cells than the header.
+enum class UnevenRows {
+  kRefuse,   ///< `vo::Error` names its line
+  kLeaveOut  ///< it is left out and counted
+};
+
 /// A CSV file with a header line, its cells as text.
 class CsvTable {
  public:
-  /// Reads a file: one header line of column names, then rows of as many cells, separated by commas. Spaces
-  /// around a cell, a byte order mark, carriage returns and blank lines are passed over; quoting is not
-  /// understood. Throws `vo::Error` naming the file and line if it cannot be read, has no header or a row of
-  /// another length.
-  static CsvTable read(const std::filesystem::path& path);
+  /// Reads a file as programs and spreadsheets write it [RFC 4180 and what is done beside it]: one header
+  /// line of column names, then rows of as many cells. Cells are separated by commas, semicolons or tabs,
+  /// whichever the header has most of; a cell in double quotes may hold separators, and quotes doubled.
+  /// Spaces around a cell, blank lines, rows of empty cells, lines that begin with `#`, Excel's `sep=;`, byte
+  /// order marks and any ends of lines are passed over. A `#` line whose names stand over as many numbers is
+  /// the header (EuRoC's files). Throws `vo::Error` naming the file and line if it cannot be read, has no
+  /// header, or a row is uneven.
+  static CsvTable read(const std::filesystem::path& path, UnevenRows uneven = UnevenRows::kRefuse);
 
   [[nodiscard]] std::size_t rows() const { return cells_.size(); }
   [[nodiscard]] bool has(std::string_view column) const;
+  [[nodiscard]] const std::vector<std::string>& header() const { return header_; }
+  /// Uneven rows left out.
+  [[nodiscard]] std::size_t left_out() const { return left_out_; }
 
   /// The column's cells. Throws `vo::Error` that lists the columns there are, if it is missing.
   [[nodiscard]] std::vector<std::string> text(std::string_view column) const;
-  /// The column as finite numbers. Throws `vo::Error` naming file, line, column and cell if one is none.
+  /// The column as finite numbers, with a decimal point, or a decimal comma where that cannot be mistaken
+  /// (`parse_number`). Throws `vo::Error` naming file, line, column and cell if one is none.
   [[nodiscard]] std::vector<double> numbers(std::string_view column) const;
   /// The same, with none for an empty cell.
   [[nodiscard]] std::vector<std::optional<double>> optional_numbers(std::string_view column) const;
+  /// The same, with none for any cell that is no finite number.
+  [[nodiscard]] std::vector<std::optional<double>> numbers_where_they_are(std::string_view column) const;
   /// The column as whole numbers >= 0. Throws as `numbers`.
   [[nodiscard]] std::vector<std::int64_t> indices(std::string_view column) const;
 
@@ -33,11 +50,18 @@ class CsvTable {
 
  private:
   [[nodiscard]] std::size_t column_index(std::string_view column) const;
+  void find_decimal_mark(char separator);
 
   std::string path_;
   std::vector<std::string> header_;
   std::vector<std::vector<std::string>> cells_;
   std::vector<std::size_t> lines_;
+  std::size_t left_out_ = 0;
+  bool decimal_commas_ = false;
 };
+
+/// A finite number with a decimal point, or with `decimal_commas` a decimal comma as well; none if the text
+/// is anything else.
+std::optional<double> parse_number(std::string_view text, bool decimal_commas = false);
 
 }  // namespace vo

@@ -23,9 +23,6 @@ struct CsvColumn {
   bool required = true;  ///< to be there when the file is read
 };
 
-/// The number in a cell; none for anything else, an empty cell too.
-std::optional<double> csv_number(std::string_view cell);
-
 /// A file's text: the header, and a line for each row.
 template <typename Row>
 std::string to_csv(std::span<const Row> rows, std::span<const CsvColumn<Row>> columns) {

@@ -20,12 +20,12 @@ struct WalkTruth {
 
 /// Reads `truth.csv`: columns frame,time_s,x_m,y_m,heading_deg,distance_m and optionally steps, in any order;
 /// heading clockwise from +y. Throws `vo::Error` naming file, line and column for a missing column, a cell
-/// that is no number, frames that do not run 0, 1, 2, ... or times that do not increase.
+/// that is no number, frames that do not run 0, 1, 2, ..., times that do not increase, or distances that
+/// decrease.
 WalkTruth read_truth(const std::filesystem::path& path);
 
-/// Reads a trajectory in TUM's form: lines of `time x y z qx qy qz qw`, seconds and metres, `#` starts a
-/// comment. The walk is taken to be in the x-y plane, the body's x axis forward; z, roll and pitch are
-/// dropped. Throws `vo::Error` naming file and line for anything else, or times that do not increase.
+/// Reads a walk on the ground from a trajectory in retrace's own axes, the body's x forward, the world's z
+/// up: `planar` of `read_pose_series`; z, roll and pitch are dropped. Throws as these do.
 Trajectory read_tum(const std::filesystem::path& path);
 
 /// A trajectory in TUM's form, microseconds and micrometres, after `comment` as a `#` line if there is one.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,10 +13,13 @@
 #include <place/route/geographic.hpp>
 #include <place/route/survey.hpp>
 #include <vo/base/error.hpp>
+#include <vo/base/iso_time.hpp>
 
 namespace {
 
 using test_support::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 /// A recording of so many frames, of which only the times matter here.
 vo::Walk recording(int frames, double rate_hz) {
@@ -59,6 +64,117 @@ TEST(Survey, ATrajectoryIsReadBetweenItsPoses) {
   EXPECT_THROW_WITH(place::survey_from_trajectory(
                         folder.write("late.tum", "90 0 0 0 0 0 0 1\n91 0 0 0 0 0 0 1\n"), recording(7, 2)),
                     vo::Error, "has poses from 90.000 to 91.000 s and none within the walk");
+}
+
+TEST(Survey, NothingIsKnownInAGap) {
+  // East at 1 m/s, a pose every 0.2 s to 2 s and from 10 s.
+  const TemporaryFolder folder;
+  std::string tum;
+  for (int i = 0; i <= 60; ++i) {
+    if (i > 10 && i < 50) continue;
+    tum += fmt::format("{:.1f} {:.1f} 0 0 0 0 0 1\n", 0.2 * i, 0.2 * i);
+  }
+  const auto file = folder.write("lost.tum", tum);
+  const vo::Walk walk = recording(121, 10);
+  const place::Survey survey = place::survey_from_trajectory(file, walk);
+  EXPECT_TRUE(survey.pose[20]);
+  EXPECT_FALSE(survey.pose[22]);  // a frame, 0.1 s, is let pass
+  EXPECT_FALSE(survey.pose[98]);
+  EXPECT_TRUE(survey.pose[100]);
+  EXPECT_NEAR(*survey.distance_m[120], 12, 1e-9);  // straight over the gap
+  EXPECT_TRUE(place::survey_from_trajectory(file, walk, {.max_gap_s = 9}).pose[60]);
+  EXPECT_FALSE(place::survey_from_trajectory(file, recording(101, 100), {.max_gap_s = 0.1}).pose[10]);
+  EXPECT_THROW(place::survey_from_trajectory(file, walk, {.max_gap_s = 0}), std::invalid_argument);
+}
+
+TEST(Survey, AFileWithoutTimesHasOnePoseForEachFrame) {
+  const TemporaryFolder folder;
+  std::string kitti;
+  for (int i = 0; i < 5; ++i) kitti += fmt::format("1 0 0 0 0 1 0 0 0 0 1 {}\n", i);
+  const auto file = folder.write("poses.txt", kitti);
+  const place::Survey survey = place::survey_from_trajectory(file, recording(5, 1));
+  EXPECT_NEAR(survey.pose[4]->y_m, 4, 1e-12);
+  EXPECT_NEAR(survey.pose[4]->heading_rad, 0, 1e-12);
+  EXPECT_THROW_WITH(place::survey_from_trajectory(file, recording(6, 1)), vo::Error,
+                    "poses.txt: has 5 poses without times; expected 6, one for each frame of walk.mp4");
+}
+
+TEST(Survey, ClocksAreMatchedWhereBothSayTheDate) {
+  const TemporaryFolder folder;
+  std::string tum;
+  for (int i = 0; i <= 100; ++i) tum += fmt::format("{} {} 0 0 0 0 0 1\n", 1700000000 + i, i);
+  const auto file = folder.write("slam.tum", tum);
+  vo::Walk walk = recording(11, 1);
+  EXPECT_THROW_WITH(place::survey_from_trajectory(file, walk), vo::Error, "--trajectory-start-s");
+  EXPECT_EQ(place::survey_from_trajectory(file, walk, {.start_s = 1700000050}).pose[0]->x_m, 50);
+  walk.start_utc_s = 1700000020;
+  const place::Survey matched = place::survey_from_trajectory(file, walk);
+  EXPECT_EQ(matched.pose[0]->x_m, 20);
+  EXPECT_THAT(matched.warnings,
+              ElementsAre(HasSubstr("the first frame is 20.0 s after the file's first pose")));
+  walk.start_utc_s = 1600000000;  // a camera whose clock was never set
+  EXPECT_THROW(place::survey_from_trajectory(file, walk), vo::Error);
+}
+
+TEST(Survey, ALoggerMayRunLongBeforeTheCamera) {
+  const TemporaryFolder folder;
+  std::string gpx = "<gpx><trk><trkseg>";
+  for (int i = 0; i < 80; ++i) {
+    const auto at = place::geographic_at({47, 8}, 0, i);
+    gpx += fmt::format("<trkpt lat=\"{:.9f}\" lon=\"8\"><time>2024-05-31T12:{:02}:{:02}Z</time></trkpt>",
+                       at.latitude_deg, i / 60, i % 60);
+  }
+  const auto file = folder.write("day.gpx", gpx + "</trkseg></trk></gpx>");
+  vo::Walk walk = recording(11, 1);
+  const auto surveyed = [&](const place::SurveyOptions& options) {
+    std::optional<place::GeographicOrigin> origin = place::GeographicOrigin{47, 8};
+    return place::survey_from_track(file, walk, origin, options);
+  };
+  const place::Survey by_default = surveyed({});
+  EXPECT_NEAR(by_default.pose[0]->y_m, 0, 1e-3);
+  EXPECT_THAT(by_default.warnings, ElementsAre(HasSubstr("lasts 79 s, the video 10 s")));
+  const place::Survey said = surveyed({.start_s = 60});
+  EXPECT_NEAR(said.pose[0]->y_m, 60, 1e-3);
+  EXPECT_THAT(said.warnings, testing::IsEmpty());
+  walk.start_utc_s = vo::parse_iso_time("2024-05-31T12:01:00Z");
+  EXPECT_NEAR(surveyed({}).pose[0]->y_m, 60, 1e-3);
+  walk.start_utc_s = vo::parse_iso_time("2024-05-31T14:01:00Z");  // local time, said to be UTC
+  const place::Survey apart = surveyed({});
+  EXPECT_NEAR(apart.pose[0]->y_m, 0, 1e-3);
+  EXPECT_THAT(apart.warnings, testing::Contains(HasSubstr("was not recorded at the video's creation time")));
+}
+
+TEST(Survey, NoPoseLiesBetweenSegments) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "walk.gpx",
+      "<gpx><trk><trkseg><trkpt lat=\"47\" lon=\"8\"><time>2024-05-31T12:00:00Z</time></trkpt>"
+      "<trkpt lat=\"47.0001\" lon=\"8\"><time>2024-05-31T12:00:04Z</time></trkpt></trkseg>"
+      "<trkseg><trkpt lat=\"47.0002\" lon=\"8\"><time>2024-05-31T12:00:08Z</time></trkpt>"
+      "<trkpt lat=\"47.0003\" lon=\"8\"><time>2024-05-31T12:00:10Z</time></trkpt></trkseg></trk></gpx>");
+  std::optional<place::GeographicOrigin> origin;
+  const place::Survey survey = place::survey_from_track(file, recording(21, 2), origin);
+  EXPECT_TRUE(survey.pose[8]);
+  EXPECT_FALSE(survey.pose[12]);
+  EXPECT_TRUE(survey.pose[16]);
+  EXPECT_TRUE(survey.pose[19]);
+}
+
+TEST(Survey, AnAllDayLogIsReadInOneGo) {
+  // Twelve hours, a point a second, a third of them standing: headings are found in a pass, not in a search
+  // that grows with the pauses.
+  const TemporaryFolder folder;
+  std::string csv = "time_s,lat_deg,lon_deg\n";
+  double y_m = 0;
+  for (int i = 0; i < 43200; ++i) {
+    y_m += i % 10800 < 7200 ? 1.4 : 0;
+    csv += fmt::format("{},{:.9f},8\n", i, place::geographic_at({47, 8}, 0, y_m).latitude_deg);
+  }
+  std::optional<place::GeographicOrigin> origin;
+  const place::Survey survey =
+      place::survey_from_track(folder.write("day.csv", csv), recording(101, 1), origin, {.start_s = 10000});
+  EXPECT_NEAR(survey.pose[100]->heading_rad, 0, 1e-6);
+  EXPECT_EQ(survey.distance_m[100], 0);  // a pause
 }
 
 TEST(Survey, ATrackGivesTheRouteItsOrigin) {

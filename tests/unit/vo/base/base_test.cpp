@@ -75,6 +75,44 @@ TEST(Rng, HasTheMomentsOfItsDistributions) {
   EXPECT_THROW(rng.uniform(1, 0), std::invalid_argument);
 }
 
+TEST(Trajectory, HeadsAlongItsPath) {
+  // Ten metres east, ten north, a pose every half metre.
+  vo::Trajectory walk;
+  for (int i = 0; i <= 40; ++i)
+    walk.push_back({1.0 * i, {std::min(0.5 * i, 10.0), std::max(0.0, 0.5 * i - 10), 0}});
+  vo::head_along_path(walk, 3);
+  constexpr double kEast = std::numbers::pi / 2;
+  for (int i = 0; i <= 40; ++i) {
+    const double heading = walk[static_cast<std::size_t>(i)].pose.heading_rad;
+    // Away from the corner by twice the reach's half on either side: the heading is exactly that of the leg.
+    if (i <= 14) {
+      EXPECT_DOUBLE_EQ(heading, kEast) << i;
+    }
+    if (i >= 26) {
+      EXPECT_DOUBLE_EQ(heading, 0) << i;
+    }
+    EXPECT_GE(heading, 0) << i;
+    EXPECT_LE(heading, kEast) << i;
+  }
+  EXPECT_NEAR(walk[20].pose.heading_rad, kEast / 2,
+              0.35);  // at the corner, by marks within 1.5 m on either side
+}
+
+TEST(Trajectory, HeadsNowhereWhereItDoesNotMove) {
+  vo::Trajectory none;
+  vo::head_along_path(none, 3);
+  vo::Trajectory still{{0, {1, 1, 5}}, {1, {1, 1, 5}}};
+  vo::head_along_path(still, 3);
+  EXPECT_EQ(still[1].pose.heading_rad, 0);
+  vo::Trajectory one{{0, {1, 1, 5}}};
+  vo::head_along_path(one, 3);
+  EXPECT_EQ(one[0].pose.heading_rad, 0);
+  // Shorter than the reach: the heading between the ends.
+  vo::Trajectory brief{{0, {0, 0, 0}}, {1, {0.1, 0, 0}}, {2, {0.2, 0.2, 0}}};
+  vo::head_along_path(brief, 3);
+  for (const auto& pose : brief) EXPECT_DOUBLE_EQ(pose.pose.heading_rad, std::numbers::pi / 4);
+}
+
 TEST(Trajectory, InterpolatesAlongTheShorterArc) {
   const double degree = std::numbers::pi / 180;
   const vo::Trajectory walk{{0, {0, 0, 170 * degree}}, {2, {4, 2, -170 * degree}}};

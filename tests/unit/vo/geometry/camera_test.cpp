@@ -1,21 +1,13 @@
-#include "support/temporary_folder.hpp"
-
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vo/base/error.hpp>
 #include <vo/geometry/camera.hpp>
-#include <vo/io/camera_calibration.hpp>
 
 namespace {
-
-using testing::HasSubstr;
 
 TEST(Camera, OfAFieldOfViewSeesHalfOfItAtTheRim) {
   const vo::Camera camera = vo::camera_from_fov(640, 360, 90);
@@ -56,55 +48,22 @@ TEST(Camera, UndistortsPoints) {
   EXPECT_TRUE(vo::undistort(camera, {}).empty());
 }
 
-class CameraCalibration : public testing::Test {
- protected:
-  std::string file(const std::string& text) {
-    const auto path = folder_.path() / "camera.yml";
-    std::ofstream(path) << text;
-    return path.string();
-  }
-  static std::string message(const std::string& path) {
-    try {
-      vo::read_camera_calibration(path);
-    } catch (const vo::Error& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-  static std::string calibration(const std::string& distortion) {
-    return "%YAML:1.0\n---\nimage_width: 848\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n   rows: "
-           "3\n   cols: 3\n"
-           "   dt: d\n   data: [ 610., 0., 423., 0., 612., 239., 0., 0., 1. ]\n" +
-           distortion;
-  }
-
-  test_support::TemporaryFolder folder_;
-};
-
-TEST_F(CameraCalibration, IsReadAsOpenCvWritesIt) {
-  const vo::Camera camera = vo::read_camera_calibration(
-      file(calibration("distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n"
-                       "   data: [ -0.1, 0.02, 0., 0.001, 0. ]\n")));
-  EXPECT_EQ(camera.width_px, 848);
-  EXPECT_EQ(camera.height_px, 480);
-  EXPECT_EQ(camera.fx_px, 610);
-  EXPECT_EQ(camera.fy_px, 612);
-  EXPECT_EQ(camera.cx_px, 423);
-  EXPECT_EQ(camera.cy_px, 239);
-  EXPECT_THAT(camera.distortion, testing::ElementsAre(-0.1, 0.02, 0, 0.001, 0));
-  EXPECT_THAT(vo::read_camera_calibration(file(calibration(""))).distortion, testing::IsEmpty());
-}
-
-TEST_F(CameraCalibration, SaysWhatIsMissing) {
-  EXPECT_THAT(message((folder_.path() / "none.yml").string()), HasSubstr("does not exist"));
-  EXPECT_THAT(message(file("not a calibration")), HasSubstr("is no YAML"));
-  EXPECT_THAT(message(file("%YAML:1.0\n---\nimage_width: 848\n")), HasSubstr("image_height"));
-  EXPECT_THAT(message(file("%YAML:1.0\n---\nimage_width: 848\nimage_height: 480\n")),
-              HasSubstr("camera_matrix"));
-  EXPECT_THAT(
-      message(file(calibration("distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 3\n   dt: d\n"
-                               "   data: [ 1., 2., 3. ]\n"))),
-      HasSubstr("3 distortion_coefficients"));
+TEST(Camera, UndistortsAFisheye) {
+  vo::Camera camera = vo::camera_from_fov(640, 480, 90);
+  camera.lens = vo::LensModel::kEquidistant;
+  camera.distortion = {0, 0, 0, 0};
+  // Without coefficients the radius is the angle itself: 45 degrees are pi / 4 focal lengths from the middle.
+  const double radius_px = camera.fx_px * std::numbers::pi / 4;
+  const auto points =
+      vo::undistort(camera, {{camera.cx_px + radius_px, camera.cy_px}, {camera.cx_px, camera.cy_px}});
+  EXPECT_NEAR(points[0].x, 1, 1e-6);  // OpenCV's Newton steps end at 1e-8 rad
+  EXPECT_NEAR(points[0].y, 0, 1e-9);
+  EXPECT_NEAR(points[1].x, 0, 1e-9);
+  // With them: 30 degrees at theta (1 + k1 theta^2 + k2 theta^4).
+  camera.distortion = {0.02, -0.003, 0, 0};
+  const double theta = std::numbers::pi / 6, t2 = theta * theta;
+  const double bent_px = camera.fx_px * theta * (1 + 0.02 * t2 - 0.003 * t2 * t2);
+  EXPECT_NEAR(vo::undistort(camera, {{camera.cx_px, camera.cy_px - bent_px}})[0].y, -std::tan(theta), 1e-6);
 }
 
 TEST(Camera, RadialDistortionComesAndGoes) {
@@ -124,6 +83,17 @@ TEST(Camera, OfARecordingIsTheCalibratedOne) {
   EXPECT_EQ(vo::camera_of_recording(std::nullopt, 640, 360, 60).fx_px,
             vo::camera_from_fov(640, 360, 60).fx_px);
   EXPECT_THROW(vo::camera_of_recording(calibrated, 640, 480, 60), vo::Error);
+  // Of another size and the same shape, it sees the same rays.
+  const vo::Camera scaled = vo::camera_of_recording(calibrated, 1280, 720, 60);
+  EXPECT_EQ(scaled.height_px, 720);
+  EXPECT_NEAR(scaled.fx_px, 2 * calibrated.fx_px, 1e-9);
+  EXPECT_EQ(vo::camera_of_recording(vo::camera_from_fov(1280, 720, 80), 854, 480, 60).height_px, 480);
+  // One that does not say its size is the recording's, if its middle says nothing else.
+  vo::Camera unsized = calibrated;
+  unsized.width_px = unsized.height_px = 0;
+  EXPECT_EQ(vo::camera_of_recording(unsized, 640, 360, 60).width_px, 640);
+  EXPECT_EQ(vo::camera_of_recording(unsized, 640, 360, 60).fx_px, calibrated.fx_px);
+  EXPECT_THROW(vo::camera_of_recording(unsized, 1280, 720, 60), vo::Error);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Row {
 constexpr std::array kColumns{
     vo::CsvColumn<Row>{"number", [](const Row& row) { return std::to_string(row.number); },
                        [](Row& row, std::string_view cell) {
-                         const auto value = vo::csv_number(cell);
+                         const auto value = vo::parse_number(cell);
                          if (value) row.number = static_cast<int>(*value);
                          return value.has_value();
                        },
@@ -66,8 +66,8 @@ TEST(CsvColumns, NameTheCellThatIsOfAnotherKind) {
 }
 
 TEST(CsvNumber, IsAWholeFiniteCell) {
-  EXPECT_EQ(vo::csv_number("-1.5e2"), -150);
-  for (const char* none : {"", "nan", "inf", "1 2", "1,5", "x"}) EXPECT_FALSE(vo::csv_number(none)) << none;
+  EXPECT_EQ(vo::parse_number("-1.5e2"), -150);
+  for (const char* none : {"", "nan", "inf", "1 2", "1,5", "x"}) EXPECT_FALSE(vo::parse_number(none)) << none;
 }
 
 }  // namespace

@@ -65,10 +65,18 @@ TEST(ExternalTrajectory, MayBeginLateAndEndEarly) {
 TEST(ExternalTrajectory, WithoutTimesHasOnePoseForEachFrame) {
   vo::PoseSeries poses = series({0, 1, 2});
   poses.time_s.clear();
+  poses.frame = {0, 1, 2};
+  poses.frames = 3;
   const std::vector<double> time_s{0, 0.1, 0.2};
   EXPECT_NEAR(vo::external_trajectory(poses, time_s).frames[2].displacement, 2, 1e-12);
   EXPECT_THROW_WITH(vo::external_trajectory(poses, std::vector{0.0, 0.1}), vo::Error,
                     "walk.tum: has 3 poses without times; expected 2, one for each frame");
+  poses.frame = {0, 1, 3};  // a line that was no pose
+  poses.frames = 4;
+  const auto track = vo::external_trajectory(poses, std::vector{0.0, 0.1, 0.2, 0.3});
+  EXPECT_TRUE(track.frames[1].valid);
+  EXPECT_FALSE(track.poses[2]);
+  EXPECT_FALSE(track.frames[3].valid);
 }
 
 TEST(ExternalTrajectory, TurnsAboutTheBodysOwnVertical) {

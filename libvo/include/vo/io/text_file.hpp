@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vo {
+
+/// One line of a text file.
+struct TextLine {
+  std::size_t number = 0;  ///< in the file, from 1
+  std::string text;        ///< without the end of the line
+};
+
+/// The lines of a text file as people's programs write them: UTF-8 with or without a byte order mark, or
+/// UTF-16 with one (spreadsheets' "Unicode text"); ended by LF, CR LF or CR. `expected` says in an error what
+/// the file should have been. Throws `vo::Error` naming the file if it is missing, a folder, or cannot be
+/// read.
+std::vector<TextLine> read_text_lines(const std::filesystem::path& path, std::string_view expected);
+
+/// The text without white space at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// The beginning of what a file holds, for messages: it may be no text at all.
+std::string printable(std::string_view text);
+
+}  // namespace vo

@@ -1,0 +1,96 @@
+#include "vo/io/text_file.hpp"
+
+#include "vo/base/error.hpp"
+
+#include <fstream>
+#include <iterator>
+
+namespace vo {
+namespace {
+
+void append_utf8(std::string& text, char32_t code) {
+  const auto put = [&](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+  if (code < 0x80) {
+    put(code);
+  } else if (code < 0x800) {
+    put(0xC0 | (code >> 6));
+    put(0x80 | (code & 0x3F));
+  } else if (code < 0x10000) {
+    put(0xE0 | (code >> 12));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  } else {
+    put(0xF0 | (code >> 18));
+    put(0x80 | ((code >> 12) & 0x3F));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  }
+}
+
+/// UTF-8 of UTF-16; half a surrogate pair becomes a question mark.
+std::string from_utf16(std::string_view bytes, bool big_endian) {
+  std::string text;
+  const auto unit = [&](std::size_t i) {
+    const auto a = static_cast<unsigned char>(bytes[i]), b = static_cast<unsigned char>(bytes[i + 1]);
+    return static_cast<char32_t>(big_endian ? a << 8 | b : b << 8 | a);
+  };
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    char32_t code = unit(i);
+    const bool first_half = code >= 0xD800 && code < 0xDC00, second_half = code >= 0xDC00 && code < 0xE000;
+    const char32_t next = first_half && i + 3 < bytes.size() ? unit(i + 2) : 0;
+    if (next >= 0xDC00 && next < 0xE000) {
+      code = 0x10000 + ((code - 0xD800) << 10) + (next - 0xDC00);
+      i += 2;
+    } else if (first_half || second_half) {
+      code = U'?';
+    }
+    append_utf8(text, code);
+  }
+  return text;
+}
+
+/// The text of a file in UTF-8, by its byte order mark.
+std::string decoded(std::string bytes) {
+  const std::string_view all = bytes;
+  if (all.starts_with("\xEF\xBB\xBF")) return bytes.substr(3);
+  if (all.starts_with("\xFF\xFE")) return from_utf16(all.substr(2), false);
+  if (all.starts_with("\xFE\xFF")) return from_utf16(all.substr(2), true);
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<TextLine> read_text_lines(const std::filesystem::path& path, std::string_view expected) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) throw Error(path.string(), "does not exist", expected);
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path, ignored))
+    throw Error(path.string(), "cannot be read", expected);
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file.bad()) throw Error(path.string(), "cannot be read to its end");
+  const std::string text = decoded(std::move(bytes));
+  std::vector<TextLine> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+    lines.push_back({lines.size() + 1, text.substr(begin, end - begin)});
+    const bool two = end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n';
+    begin = end + (two ? 2 : 1);
+  }
+  return lines;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string shown(text.substr(0, kMost));
+  for (char& c : shown) c = c >= ' ' && c <= '~' ? c : '?';
+  return shown + (text.size() > kMost ? "..." : "");
+}
+
+}  // namespace vo

@@ -1,0 +1,60 @@
+#include "support/temporary_folder.hpp"
+
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vo/base/error.hpp>
+#include <vo/io/trajectory_io.hpp>
+
+namespace {
+
+using test_support::TemporaryFolder;
+using testing::ElementsAre;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+TEST(Truth, ReadsFramesInOrder) {
+  const TemporaryFolder folder;
+  const std::string header = "frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n";
+  const vo::WalkTruth truth =
+      vo::read_truth(folder.write("t.csv", header + "0,0,1,2,90,0,0\n1,0.04,1.5,2,-270,0.5,1\n"));
+  EXPECT_THAT(truth.distance_m, ElementsAre(0, 0.5));
+  EXPECT_THAT(truth.steps, ElementsAre(0, 1));
+  EXPECT_NEAR(truth.poses[1].pose.heading_rad, 90 * kDegree, 1e-12);
+  EXPECT_DOUBLE_EQ(truth.poses[1].pose.x_m, 1.5);
+
+  EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header)), vo::Error, "has no rows");
+  EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header + "1,0,0,0,0,0,0\n")), vo::Error,
+                    "line 2: frame is 1; expected 0");
+  EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header + "0,1,0,0,0,0,0\n1,1,0,0,0,0,0\n")),
+                    vo::Error, "line 3: time 1 s does not follow 1 s");
+  EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", "frame,time_s\n0,0\n")), vo::Error, "has no column");
+  EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header + "0,0,0,0,0,2,0\n1,1,0,0,0,1.5,0\n")),
+                    vo::Error, "line 3: distance 1.5 m is less than the 2 m before");
+}
+
+TEST(Tum, RoundTripsPosesAndHeadings) {
+  const TemporaryFolder folder;
+  const vo::Trajectory walk{{0, {1, 2, 0}}, {0.5, {-3.25, 4, 100 * kDegree}}, {2, {0, 0, -170 * kDegree}}};
+  const std::string text = vo::to_tum(walk, "a walk");
+  EXPECT_EQ(text.substr(0, text.find('\n')), "# a walk");
+  const vo::Trajectory back = vo::read_tum(folder.write("t.tum", text));
+  ASSERT_EQ(back.size(), walk.size());
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    EXPECT_NEAR(back[i].time_s, walk[i].time_s, 1e-6);
+    EXPECT_NEAR(back[i].pose.x_m, walk[i].pose.x_m, 1e-6);
+    EXPECT_NEAR(back[i].pose.heading_rad, walk[i].pose.heading_rad, 1e-8);  // quaternions carry nine digits
+  }
+}
+
+TEST(Tum, HeadingNorthIsYawOfAQuarterTurn) {
+  // Heading 0 points along +y: a quarter turn from +x about z, half angle 45 degrees.
+  EXPECT_EQ(vo::to_tum({{0, {0, 0, 0}}}), "0.000000 0.000000 0.000000 0 0 0 0.707106781 0.707106781\n");
+  EXPECT_EQ(vo::to_tum({{0, {0, 0, 90 * kDegree}}}),
+            "0.000000 0.000000 0.000000 0 0 0 0.000000000 1.000000000\n");
+}
+
+}  // namespace
