@@ -91,8 +91,8 @@ TEST(FeatureTracker, RefusesWhatDoesNotFit) {
   EXPECT_THROW(vo::FeatureTracker({.width_px = 0}), std::invalid_argument);
   EXPECT_THROW(vo::FeatureTracker({.window = 6}), std::invalid_argument);
   vo::FeatureTrackerOptions options;
-  options.camera = vo::camera_from_fov(640, 480, 60);
-  EXPECT_THROW(track(turning(1, 0, 0), 1, options), vo::Error);  // a calibration of another size
+  options.camera = vo::camera_from_fov(640, 640, 60);
+  EXPECT_THROW(track(turning(1, 0, 0), 1, options), vo::Error);  // a calibration of another shape
 }
 
 }  // namespace
