@@ -81,9 +81,17 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
 }  // namespace
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
+  return read_walk(std::span(&source, 1), options, progress);
+}
+
+Walk read_walk(std::span<const std::string> sources, const WalkOptions& options,
+               const ProgressCallback& progress) {
   FrameSourceOptions frames = options.frames;
   frames.colour_width_px = std::max({0, options.preview_width_px, options.colour_width_px});
-  return read_walk(*open_frame_source(source, frames), source, options, progress);
+  const auto source = open_frame_source(sources, frames);
+  const std::string name =
+      sources.size() == 1 ? sources[0] : fmt::format("{} and {} more", sources[0], sources.size() - 1);
+  return read_walk(*source, name, options, progress);
 }
 
 Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options,
@@ -116,6 +124,7 @@ Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& 
     throw Error(name, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }
   if (options.visual_odometry) walk.track = trackers.visual_odometry.finish();
+  walk.start_utc_s = frames.start_utc_s();
   walk.warnings = frames.warnings();
   return walk;
 }

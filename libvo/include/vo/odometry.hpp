@@ -70,6 +70,10 @@ struct Walk {
 Walk read_walk(const std::string& source, const WalkOptions& options = {},
                const ProgressCallback& progress = {});
 
+/// The same of several files in order, as one walk.
+Walk read_walk(std::span<const std::string> sources, const WalkOptions& options = {},
+               const ProgressCallback& progress = {});
+
 /// The same of frames from anywhere; `name` stands for them in messages.
 Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options = {},
                const ProgressCallback& progress = {});

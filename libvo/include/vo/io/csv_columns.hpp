@@ -4,7 +4,6 @@
 #include "vo/io/csv.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
