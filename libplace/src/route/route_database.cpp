@@ -346,9 +346,13 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
                     fmt::format("schema version {}; build the route again", kRouteSchemaVersion));
   }
 
-  // SQLite fills a last page that is cut short with zeros.
+  // SQLite fills a last page that is cut short with zeros. Where changes wait beside the file, pages of it
+  // are there.
+  std::error_code ignored;
+  const bool whole_file = !std::filesystem::exists(shown + "-wal", ignored);
   Statement size = database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
-  if (!size.step() || size.integer() != static_cast<std::int64_t>(std::filesystem::file_size(path))) {
+  if (!size.step() ||
+      (whole_file && size.integer() != static_cast<std::int64_t>(std::filesystem::file_size(path)))) {
     damaged(shown, "it is cut short");
   }
 
@@ -417,6 +421,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
     }
     database.run("COMMIT");
   }
+  sqlite::fold_changes(path);
   file.commit();
 }
 

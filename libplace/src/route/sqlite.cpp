@@ -1,5 +1,9 @@
 #include "route/sqlite.hpp"
 
+#include <cstdlib>
+#include <system_error>
+#include <unistd.h>
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -119,13 +123,73 @@ void Database::Close::operator()(sqlite3* database) const {
 
 Database::Database(const std::filesystem::path& file, Mode mode, std::string shown_path)
     : path_(std::move(shown_path)) {
+  open(file, mode);
+}
+
+Database::Copy::~Copy() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+}
+
+void Database::open(const std::filesystem::path& file, Mode mode) {
   const int flags =
       mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   sqlite3* database = nullptr;
-  const int code = sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
+  int code = sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
+  database_.reset(database);
+  if (code == SQLITE_OK) sqlite3_extended_result_codes(database, 0);
+  if (code == SQLITE_OK && mode == Mode::kReadOnly) {
+    // The first look into the file is where SQLite finds that it cannot make what it needs beside it.
+    code = sqlite3_exec(database, "PRAGMA schema_version", nullptr, nullptr, nullptr) & 0xFF;
+    if (code == SQLITE_CANTOPEN || code == SQLITE_READONLY) {
+      open_unwritable(file);
+      return;
+    }
+  }
+  if (code != SQLITE_OK) fail(database, path_, code);
+}
+
+void Database::open_unwritable(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path changes = file.string() + "-wal";
+  if (fs::exists(changes, error) && fs::file_size(changes, error) > 0) {
+    std::string folder = (fs::temp_directory_path() / "retrace-route-XXXXXX").string();
+    if (::mkdtemp(folder.data()) == nullptr)
+      throw vo::Error(path_, "has changes beside it (-wal) and there is no folder to copy both to",
+                      "a folder for temporary files (TMPDIR)");
+    copy_ = std::make_unique<Copy>(Copy{folder});
+    fs::copy_file(file, copy_->folder / "route.db", error);
+    if (!error) fs::copy_file(changes, copy_->folder / "route.db-wal", error);
+    if (error) throw vo::Error(path_, fmt::format("cannot be copied to {}: {}", folder, error.message()));
+    open(copy_->folder / "route.db", Mode::kCreate);
+    return;
+  }
+  std::string uri = "file:";
+  for (const char c : fs::absolute(file).string()) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/';
+    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  uri += "?immutable=1";
+  sqlite3* database = nullptr;
+  const int code = sqlite3_open_v2(uri.c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) fail(database, path_, code);
   sqlite3_extended_result_codes(database, 0);
+}
+
+void fold_changes(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::path changes = file.string() + "-wal", index = file.string() + "-shm";
+  if (std::filesystem::exists(changes, ignored)) {
+    sqlite3* database = nullptr;
+    if (sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READWRITE, nullptr) == SQLITE_OK)
+      sqlite3_exec(database, "PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE", nullptr,
+                   nullptr, nullptr);
+    sqlite3_close(database);
+  }
+  std::filesystem::remove(changes, ignored);
+  std::filesystem::remove(index, ignored);
 }
 
 Statement Database::prepare(std::string_view sql) const {

@@ -55,6 +55,9 @@ class Statement {
 class Database {
  public:
   enum class Mode { kReadOnly, kCreate };
+  /// To be read, a file is opened where it lies, on media that cannot be written too: SQLite's own ways need
+  /// to make files beside one in WAL mode, so that there it is opened as a file that nobody changes, or,
+  /// where changes wait beside it (`-wal`), as a copy of both.
   Database(const std::filesystem::path& file, Mode mode, std::string shown_path);
 
   [[nodiscard]] Statement prepare(std::string_view sql) const;
@@ -65,8 +68,21 @@ class Database {
   struct Close {
     void operator()(sqlite3* database) const;
   };
+  void open(const std::filesystem::path& file, Mode mode);
+  void open_unwritable(const std::filesystem::path& file);
+
+  /// A folder that is removed with all it holds.
+  struct Copy {
+    std::filesystem::path folder;
+    ~Copy();
+  };
   std::string path_;
+  std::unique_ptr<Copy> copy_;  ///< of the file and its changes; outlives the connection
   std::unique_ptr<sqlite3, Close> database_;
 };
+
+/// Brings changes that another program left in the `-wal` beside a file into it, so that the file can be
+/// replaced: SQLite would apply them to whatever has its name.
+void fold_changes(const std::filesystem::path& file);
 
 }  // namespace place::sqlite
