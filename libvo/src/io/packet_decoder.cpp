@@ -50,8 +50,8 @@ AVFormatContext* opened(const std::string& source) {
   return format;
 }
 
-/// A buffer for a picture that holds no other: what a decoder leaves out in it would otherwise show what was in
-/// it before, which depends on how many pictures are decoded at once.
+/// A buffer for a picture that holds no other: what a decoder leaves out in it would otherwise show what was
+/// in it before, which depends on how many pictures are decoded at once.
 int empty_buffer(AVCodecContext* codec, AVFrame* frame, int flags) {
   const int code = avcodec_default_get_buffer2(codec, frame, flags);
   for (const AVBufferRef* buffer : frame->buf) {
