@@ -471,7 +471,8 @@ class CliTest(unittest.TestCase):
         for says, lines in cases.items():
             (self.folder / "truth.csv").write_text("\n".join(lines) + "\n")
             self.refused("build", self.walks.reference, "-o", route, "--truth", self.folder / "truth.csv", says=says)
-        self.refused("build", self.walks.reference, "-o", route, "--trajectory", self.walks.reference_truth, says="line 1")
+        (self.folder / "none.tum").write_text("what is this\n")
+        self.refused("build", self.walks.reference, "-o", route, "--trajectory", self.folder / "none.tum", says="none.tum")
 
         short = self.folder / "short.csv"
         short.write_text("\n".join(good[:50]) + "\n")

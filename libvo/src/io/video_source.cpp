@@ -187,14 +187,20 @@ std::vector<std::string> VideoSource::warnings() const {
   const double step_s = 1 / rate_hz_.value_or(10);
   const std::optional<double> end_s = expected_end_s(decoder_);
   constexpr double kRounded_s = 0.1;  // containers round durations, some to a few frames
-  if (report.ended && end_s && report.end_s + 2 * step_s + kRounded_s < *end_s) {
+  // A file that was cut short may state the duration of what is left, and still the number of frames that
+  // there were. Where there are edit lists that number says nothing: they leave frames out on purpose.
+  const std::string_view container = decoder_.format().iformat->name;
+  const bool edited = container.find("mov") != std::string_view::npos;
+  const bool fewer = !edited && frames > count_ + report.damaged + 1;
+  if (report.ended && (fewer || (end_s && report.end_s + 2 * step_s + kRounded_s < *end_s))) {
     all.push_back(
         frames > count_
             ? fmt::format("{}: breaks off: {} of {} frames could be read", name_, count_, frames)
             : fmt::format("{}: breaks off: {:.1f} of {:.1f} s could be read", name_, report.end_s, *end_s));
   }
   if (report.damaged > 0) {
-    all.push_back(fmt::format("{}: {} damaged frames{}; what they show may be wrong", name_, report.damaged,
+    all.push_back(fmt::format("{}: {} damaged {}{}; what is shown there may be wrong", name_, report.damaged,
+                              report.damaged == 1 ? "frame" : "frames",
                               report.first_damaged_s
                                   ? fmt::format(", the first at {:.1f} s", *report.first_damaged_s)
                                   : std::string()));
