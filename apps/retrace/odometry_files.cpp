@@ -25,10 +25,11 @@ using nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// What displacements are measured in: without steps, visual odometry has a unit of its own.
+/// What displacements are measured in: without steps, visual odometry has a unit of its own, and alignment
+/// error has seconds at mean speed.
 std::string_view unit_of(const vo::Walk& walk, const vo::WalkMotion& motion) {
   if (motion.metric) return "m";
-  return walk.track ? "units" : "frames";
+  return walk.track ? "units" : "s";
 }
 
 /// What a source by itself tells of a frame, in a unit of its own.
@@ -107,7 +108,7 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
   const auto vo_displacement = to_common_unit(by_vo, motion),
              sad_displacement = to_common_unit(by_sad, motion);
   const vo::PedestrianMotion& gait = *motion.pedestrian;
-  const std::vector<double>& signal = vo::values_of(gait.step_signal, gait.signal);
+  const vo::Signal& signal = gait.signal.*vo::reader_of(gait.step_signal).values;
   std::vector<FrameRow> rows;
   for (std::size_t i = 0; i < walk.frames(); ++i) {
     rows.push_back({.frame = i,
@@ -116,8 +117,8 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
                     .unit = unit_of(walk, motion),
                     .tracked = walk.tracked[i],
                     .heading_rad = gait.signal.heading_rad[i],
-                    .signal = signal[i],
-                    .threshold = gait.detection.delta_dyn_deg[i],
+                    .signal = signal.values[i],
+                    .threshold = gait.detection.delta_dyn[i],
                     .reliable = gait.signal.reliable[i],
                     .pose = motion.trajectory[i].pose,
                     .vo_displacement = vo_displacement[i],
@@ -159,42 +160,17 @@ std::string steps_csv(const vo::WalkMotion& motion) {
   return vo::to_csv<StepRow>(rows, kStepColumns);
 }
 
-constexpr std::string_view name_of(vo::Activity activity) {
-  switch (activity) {
-    case vo::Activity::kStanding:
-      return "standing";
-    case vo::Activity::kWalking:
-      return "walking";
-    case vo::Activity::kRunning:
-      return "running";
-    case vo::Activity::kUnknown:
-      break;
-  }
-  return "unknown";
-}
-
 using A = vo::ActivitySecond;
 constexpr std::array kActivityColumns{
     vo::CsvColumn<A>{"time_s", [](const A& r) { return fmt::format("{:.3f}", r.time_s); }},
-    vo::CsvColumn<A>{"activity", [](const A& r) { return std::string(name_of(r.activity)); }},
+    vo::CsvColumn<A>{"activity", [](const A& r) { return std::string(vo::name_of(r.activity)); }},
     vo::CsvColumn<A>{"amplitude_deg", [](const A& r) { return six(r.amplitude_deg); }},
     vo::CsvColumn<A>{"step_hz", [](const A& r) { return fmt::format("{:.4f}", r.step_hz); }},
 };
 
-constexpr std::string_view name_of(vo::StepSignal signal) {
-  switch (signal) {
-    case vo::StepSignal::kBounce:
-      return "bounce";
-    case vo::StepSignal::kShift:
-      return "x shift";
-    case vo::StepSignal::kOrientation:
-      break;
-  }
-  return "orientation";
-}
-
 ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double step_length_m) {
   const vo::PedestrianMotion& motion = *walked.pedestrian;
+  const vo::StepReader& reader = vo::reader_of(motion.step_signal);
   double distance = 0;
   std::map<std::string, std::size_t> sources;
   for (const vo::FrameDisplacement& frame : walked.frames) {
@@ -206,8 +182,8 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
       {"frames", walk.frames()},
       {"duration_s", walk.time_s.back()},
       {"steps", motion.detection.steps.size()},
-      {"step_signal", std::string(name_of(motion.step_signal))},
-      {"step_signal_unit", motion.step_signal == vo::StepSignal::kOrientation ? "deg a frame" : "px a frame"},
+      {"step_signal", std::string(reader.name)},
+      {"step_signal_unit", fmt::format("{} a frame", vo::name_of((motion.signal.*reader.values).unit))},
       {"steps_bridged", motion.detection.bridged},
       {"frames_bridged", motion.signal.bridged},
       {"step_length_m", step_length_m},
@@ -218,13 +194,13 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
       {"delta_min", nullptr},
       {"warnings", walk.warnings},
       {"version", place::kVersion}};
-  for (const vo::Activity activity :
-       {vo::Activity::kStanding, vo::Activity::kWalking, vo::Activity::kRunning, vo::Activity::kUnknown}) {
-    json["activity_s"][std::string(name_of(activity))] =
+  for (const vo::Activity activity : {vo::Activity::kStanding, vo::Activity::kWalking, vo::Activity::kRunning,
+                                      vo::Activity::kRiding, vo::Activity::kUnknown}) {
+    json["activity_s"][std::string(vo::name_of(activity))] =
         std::ranges::count(motion.activity, activity, &vo::ActivitySecond::activity);
   }
   if (walked.metric) json["distance_m"] = distance;
-  if (motion.detection.delta_min_deg) json["delta_min"] = *motion.detection.delta_min_deg;
+  if (motion.detection.delta_min) json["delta_min"] = *motion.detection.delta_min;
   return json;
 }
 

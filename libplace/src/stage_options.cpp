@@ -158,7 +158,7 @@ void put_odometry(const Settings& s, StageOptions& options) {
               {"bounce", vo::StepSignal::kBounce},
               {"orientation", vo::StepSignal::kOrientation},
               {"shift", vo::StepSignal::kShift}});
-  put(s.min_step_deg, pedestrian.steps.detection.delta_min_deg);
+  put(s.min_step_deg, pedestrian.steps.detection.delta_min);
 }
 
 openseqslam::Options original_options(const Settings& s) {

@@ -78,6 +78,13 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
       });
 }
 
+std::string warning_of(const Walk& walk, const ClockGap& gap) {
+  return fmt::format(
+      "{}: no frames for {:.1f} s, from {:.2f} s on (frame {}); what was walked in it is not known, and no "
+      "sequence crosses it",
+      walk.source, gap.length_s, walk.time_s[gap.frame - 1], gap.frame - 1);
+}
+
 }  // namespace
 
 Walk read_walk(const std::string& source, const WalkOptions& options, const ProgressCallback& progress) {
@@ -123,9 +130,18 @@ Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& 
   if (walk.frames() < 2) {
     throw Error(name, fmt::format("has {} frame", walk.frames()), "a walk of at least 2 frames");
   }
-  if (options.visual_odometry) walk.track = trackers.visual_odometry.finish();
   walk.start_utc_s = frames.start_utc_s();
   walk.warnings = frames.warnings();
+  walk.gaps = clock_gaps(walk.time_s);
+  for (const ClockGap& gap : walk.gaps)
+    if (parts_walk(gap)) walk.warnings.push_back(warning_of(walk, gap));
+  if (options.visual_odometry) {
+    walk.track = trackers.visual_odometry.finish();
+    for (const ClockGap& gap : walk.gaps) {  // what is seen after it may be anywhere
+      walk.track->frames[gap.frame].valid = false;
+      walk.track->frames[gap.frame].loss = TrackLoss::kGap;
+    }
+  }
   return walk;
 }
 
@@ -144,26 +160,75 @@ std::vector<bool> with_contrast(const Walk& walk, const VisualMotionOptions& opt
 }  // namespace
 
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options) {
-  const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);  // SSS Eq. 2
-  const double unlike = distant_error(normalised);
-  if (standing_still(unlike)) {
+  std::optional<VisualMotion> motion = visual_motion_if_any(walk, options);
+  if (!motion)
     throw Error(walk.source, "shows no motion to learn from", "a walk along which the scene changes");
-  }
-  VisualMotion motion;
-  motion.errors = alignment_errors(normalised, options.alignment);  // Eq. 1
-  const std::vector<bool> excluded =
-      high_error_windows(motion.errors, walk.time_s, options.alignment);                       // Fig. 10
-  const std::vector<double> mean_error = mean_error_by_separation(motion.errors, excluded);    // Fig. 2
-  motion.model = learn_motion_model(mean_error);                                               // Fig. 3
-  motion.displacement = estimate_motion(motion.errors, excluded, walk.time_s, options.model);  // Eq. 3
-  motion.standing = standing_steps(normalised, walk.time_s, unlike, options.standing);
+  return std::move(*motion);
+}
+
+std::optional<VisualMotion> visual_motion_if_any(const Walk& walk, const VisualMotionOptions& options) {
+  const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);  // SSS Eq. 2
+  const Stands stands = find_stands(normalised, walk.time_s, options.standing);
+  if (stands.still) return std::nullopt;
+  VisualMotion motion{.standing = stands.standing};
+  motion.errors = alignment_errors(normalised, walk.time_s, options.alignment);  // Eq. 1
+  std::vector<bool> excluded =
+      high_error_windows(motion.errors, walk.time_s, motion.standing, options.alignment);  // Fig. 10
   motion.usable = with_contrast(walk, options);
-  for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
-    if (motion.standing[i]) motion.displacement[i] = 0;
-    if (excluded[i]) motion.usable[i] = false;
+  for (std::size_t i = 0; i < excluded.size(); ++i) {
+    motion.usable[i] = motion.usable[i] && !excluded[i];
+    excluded[i] = excluded[i] || motion.standing[i];
   }
+  motion.model = learn_motion_model(mean_errors(motion.errors, excluded));                     // Fig. 2, 3
+  motion.displacement = estimate_motion(motion.errors, excluded, walk.time_s, options.model);  // Eq. 3
+  for (std::size_t i = 0; i < motion.displacement.size(); ++i)
+    if (motion.standing[i]) motion.displacement[i] = 0;
+  fill_gaps_by_pace(walk.time_s, walk.gaps, motion.displacement);
+  for (const ClockGap& gap : walk.gaps) motion.usable[gap.frame] = false;
+  if (std::ranges::none_of(motion.displacement, [](double d) { return d > 0; })) return std::nullopt;
   return motion;
 }
+
+namespace {
+
+/// Steps found at even times, at the frames of the walk. `clock_s`: of its frames, `without_long_gaps`.
+StepDetection at_frames(StepDetection even, const GaitSignal& signal, const Walk& walk,
+                        std::span<const double> clock_s) {
+  const double half_s = 0.5 / signal.rate_hz;
+  const auto gap_at = [&](std::size_t frame) {
+    return std::ranges::lower_bound(walk.gaps, frame, {}, &ClockGap::frame);
+  };
+  std::vector<Step> steps;
+  for (Step step : even.steps) {
+    auto after = static_cast<std::size_t>(std::ranges::lower_bound(clock_s, step.time_s) - clock_s.begin());
+    after = std::clamp<std::size_t>(after, 1, clock_s.size() - 1);
+    const double since_s = step.time_s - clock_s[after - 1], until_s = clock_s[after] - step.time_s;
+    const auto gap = gap_at(after);
+    const bool in_gap = gap != walk.gaps.end() && gap->frame == after && since_s > half_s && until_s > half_s;
+    if (in_gap && parts_walk(*gap)) continue;
+    step.frame = in_gap || until_s <= since_s || after == 1 ? after : after - 1;
+    step.time_s = in_gap ? walk.time_s[after - 1] + since_s : walk.time_s[step.frame];
+    steps.push_back(step);
+  }
+  even.steps = std::move(steps);
+  even.bridged = static_cast<std::size_t>(std::ranges::count(even.steps, true, &Step::bridged));
+  even.delta_dyn = read_at(even.delta_dyn, signal.time_s, clock_s);
+  return even;
+}
+
+/// What follows from the steps.
+void walk_steps(PedestrianMotion& motion, const PedestrianMotionOptions& options) {
+  const auto& [steps, bridged, partial, delta_min, gait_share, delta_dyn] = motion.detection;
+  const std::vector<double>& time_s = motion.signal.time_s;
+  motion.step_length_m = step_lengths_m(steps, options.step_length);  // PVO 5.3 (4)
+  motion.displacement_m =
+      step_displacement_m(steps, motion.step_length_m, time_s, partial, options.dead_reckoning);
+  motion.trajectory = dead_reckon(steps, motion.step_length_m, motion.signal.heading_rad, time_s, partial,
+                                  options.dead_reckoning);  // 4.6
+  motion.activity = detect_activity(motion.signal, steps, partial, options.activity);
+}
+
+}  // namespace
 
 PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptions& options) {
   if (walk.tracked.size() != walk.frames()) {
@@ -174,21 +239,26 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
         walk.source, fmt::format("has {:.3g} frames/s, too few to see steps", rate_hz),
         fmt::format("more than {:.3g}, twice the fastest steps", 2 * options.signal.lowpass.cutoff_hz));
   }
+  const std::vector<double> clock_s = without_long_gaps(walk.time_s);
+  const EvenMotion even = even_motion(walk.tracked, clock_s);
+  const GaitSignal signal = gait_signal(even.motion, even.time_s, options.signal);  // PVO 4.3, 4.5
+  StepReading reading = read_steps(signal, options.steps);                          // 4.4
+
   PedestrianMotion motion;
-  motion.signal = gait_signal(walk.tracked, walk.time_s, options.signal);  // PVO 4.3, 4.5
-  std::vector<std::size_t> matches;
-  for (const FrameMotion& frame : walk.tracked) matches.push_back(frame.matches);
-  StepReading reading = read_steps(motion.signal, matches, walk.time_s, options.steps);  // 4.4
+  motion.signal = signal_at_frames(signal, walk.tracked, clock_s);
+  motion.signal.time_s = walk.time_s;
   motion.step_signal = reading.signal;
-  motion.detection = std::move(reading.detection);
-  const std::vector<Step>& steps = motion.detection.steps;
-  motion.step_length_m = step_lengths_m(steps, options.step_length);  // 5.3 (4)
-  motion.displacement_m = step_displacement_m(steps, motion.step_length_m, walk.time_s,
-                                              motion.detection.partial, options.dead_reckoning);
-  motion.trajectory = dead_reckon(steps, motion.step_length_m, motion.signal.heading_rad, walk.time_s,
-                                  motion.detection.partial, options.dead_reckoning);  // 4.6
-  motion.activity = detect_activity(values_of(reading.stride, motion.signal), walk.time_s,
-                                    motion.signal.reliable, options.activity);
+  motion.detection = at_frames(std::move(reading.detection), signal, walk, clock_s);
+  walk_steps(motion, options);
+  return motion;
+}
+
+PedestrianMotion without_steps(PedestrianMotion motion, const PedestrianMotionOptions& options) {
+  motion.detection.steps.clear();
+  motion.detection.bridged = 0;
+  motion.detection.partial = {};
+  motion.detection.gait_share = 0;
+  walk_steps(motion, options);
   return motion;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "support/made_errors.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -59,13 +61,10 @@ inline KnownMotion known_motion(double seconds, double slow, double fast, double
     travelled.push_back(sum += walk.metres.back());
     walk.track.frames.push_back({.valid = i > 0, .displacement = walk.metres.back(), .sigma = 0});
   }
-  for (std::size_t s = 0; s <= 10; ++s) {
-    walk.errors.by_separation.emplace_back();
-    for (std::size_t i = 0; i + s < frames; ++i) {
-      const double way = travelled[i + s] - travelled[i];
-      walk.errors.by_separation[s].push_back(static_cast<float>(way / (1 + bent * way)));
-    }
-  }
+  walk.errors = made_errors(frames, kRate_hz, 10, [&](std::size_t i, std::size_t j) {
+    const double way = travelled[j] - travelled[i];
+    return way / (1 + bent * way);
+  });
   return walk;
 }
 

@@ -143,8 +143,11 @@ std::optional<Chart> activity_chart(const OdometryView& walk) {
                           .mark = "circle"}},
               .zoomable = true,
               .size = "wide"};
-  static const std::map<std::string, std::string> kColours{
-      {"standing", "grey"}, {"walking", "green"}, {"running", "orange"}, {"unknown", "purple"}};
+  static const std::map<std::string, std::string> kColours{{"standing", "grey"},
+                                                           {"walking", "green"},
+                                                           {"running", "orange"},
+                                                           {"riding", "blue"},
+                                                           {"unknown", "purple"}};
   for (const auto& [activity, colour] : kColours) {
     Band band{.name = activity, .colour = colour};
     for (std::size_t i = 0; i < seconds.time_s.size(); ++i) {

@@ -17,10 +17,10 @@ namespace {
 
 /// What tells that a walk's frames are too far apart for its motion to be learned well.
 std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionModel& model) {
-  constexpr double kFewSeparations = 5;
-  if (model.separation.back() >= kFewSeparations) return {};
+  constexpr double kLittle_s = 0.19;  // five of the spans of 0.04 s over which frames are compared
+  if (model.separation.back() >= kLittle_s) return {};
   return {fmt::format(
-      "{}: frames more than {:.0f} apart have nothing in common, so motion is told poorly; a higher frame "
+      "{}: frames more than {:.2f} s apart have nothing in common, so motion is told poorly; a higher frame "
       "rate, or motion none, may do better",
       walk.source, model.separation.back())};
 }
@@ -35,12 +35,14 @@ void to_mean_speed(const Traverse& reference, double duration_s, std::vector<dou
 }
 
 /// The displacement between keyframes.
-double unit_of(const SampledWalk& sampled, const WalkSamplingOptions& options, const Route* route) {
+double unit_of(const vo::Walk& walk, const SampledWalk& sampled, const WalkSamplingOptions& options,
+               const Route* route) {
   const bool by_metres = sampled.metric && options.spacing_m;
   if (!by_metres && !options.n)
     throw std::invalid_argument("sample_walk: n expected, as the motion is not in metres");
   if (route == nullptr || route->traverses.empty())
-    return by_metres ? *options.spacing_m : sampling_unit(sampled.displacement, *options.n);  // SSS Eq. 4
+    return by_metres ? *options.spacing_m
+                     : sampling_unit(sampled.displacement, walk.time_s, *options.n);  // SSS Eq. 4
   const Settings& first = route->settings;
   if (by_metres) return options.spacing_m == first.spacing_m ? route->unit : *options.spacing_m;
   return first.sampling_n ? route->unit / *first.sampling_n * *options.n : route->unit;  // linear in n
@@ -117,7 +119,9 @@ SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options
   const Traverse* reference = on != nullptr ? &on->traverses.front() : nullptr;
   if (reference != nullptr && motion.metric != route->metric)
     to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
-  sampled.unit = unit_of(sampled, options, route);
+  sampled.unit = unit_of(walk, sampled, options, route);
+  if (!(sampled.unit > 0))
+    throw vo::Error(walk.source, "shows no motion", "a walk along which the scene changes");
   take_keyframes(walk, resample(sampled.displacement, sampled.unit), *descriptors, on, sampled);
   if (reference == nullptr || !options.tie_scale) return sampled;
 

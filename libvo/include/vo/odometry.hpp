@@ -1,8 +1,10 @@
 #pragma once
 
+#include "vo/base/clock.hpp"
 #include "vo/base/progress.hpp"
 #include "vo/gait/activity.hpp"
 #include "vo/gait/dead_reckoning.hpp"
+#include "vo/gait/even_motion.hpp"
 #include "vo/gait/gait_signal.hpp"
 #include "vo/gait/step_length.hpp"
 #include "vo/gait/step_reading.hpp"
@@ -51,6 +53,7 @@ struct Walk {
   int frame_width_px = 0;
   int frame_height_px = 0;
   std::vector<double> time_s;  ///< of each frame, since the first, strictly increasing
+  std::vector<ClockGap> gaps;  ///< jumps of that clock, in order (`clock_gaps`)
   ImageStack thumbnails;       ///< grey, one for each frame
   std::vector<std::vector<std::uint8_t>>
       previews;                      ///< JPEG, one for each frame; empty if none were asked for
@@ -90,17 +93,21 @@ struct VisualMotionOptions {
 /// The displacement of every frame since the one before it (the first: 0), from alignment error
 /// (SSS 3.1-3.2).
 struct VisualMotion {
-  std::vector<double> displacement;  ///< frames at mean walking speed
+  std::vector<double> displacement;  ///< seconds at mean walking speed
   std::vector<bool> standing;        ///< the steps, among them, that are 0 because the walker stands
   MotionModel model;                 ///< learned on the whole walk
   AlignmentErrors errors;            ///< that all of this was learned from
-  std::vector<bool> usable;  ///< false for frames in windows of high error, and of next to no contrast
+  std::vector<bool> usable;  ///< false in windows of high error, of next to no contrast, and after a gap
 };
 
-/// Patch normalisation -> alignment errors -> windows of high error left out -> motion model -> displacement
-/// -> standing. Throws `vo::Error` naming the walk if there is no motion to learn from (black, or standing
-/// still throughout).
+/// Patch normalisation -> stands -> alignment errors -> windows of high error -> motion model, learned
+/// without both -> displacement; over jumps of the clock that of the pace around them (`fill_gaps_by_pace`).
+/// Throws `vo::Error` naming the walk if there is no motion to learn from (black, or standing still
+/// throughout).
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options = {});
+
+/// The same; none where there is no motion to learn from.
+std::optional<VisualMotion> visual_motion_if_any(const Walk& walk, const VisualMotionOptions& options = {});
 
 /// Settings of `pedestrian_motion`.
 struct PedestrianMotionOptions {
@@ -111,20 +118,24 @@ struct PedestrianMotionOptions {
   ActivityOptions activity;
 };
 
-/// Steps, heading and trajectory of a walk (PVO 4).
+/// Steps, heading and trajectory of a walk (PVO 4), at its frames.
 struct PedestrianMotion {
   GaitSignal signal;
   StepSignal step_signal = StepSignal::kOrientation;  ///< which of them the steps were read from
-  StepDetection detection;                            ///< in the signal's unit: degrees, or pixels of shift
+  StepDetection detection;                            ///< in the signal's unit
   std::vector<double> step_length_m;                  ///< of each step
   std::vector<double> displacement_m;                 ///< of each frame since the one before it; the first: 0
   DeadReckoning trajectory;                           ///< from (0, 0), heading 0
   std::vector<ActivitySecond> activity;
 };
 
-/// Gait signal -> steps -> step lengths -> displacement and trajectory, of a walk read with `track_features`.
-/// Throws `std::invalid_argument` for one without, `vo::Error` naming a walk whose frame rate is too low to
-/// see steps.
+/// Motion at even times -> gait signal -> steps -> step lengths -> displacement and trajectory, of a walk
+/// read with `track_features`. In gaps of the clock steps are those of the way (`complete_steps`), in gaps
+/// longer than `kLongestFilledGap_s` there are none. Throws `std::invalid_argument` for a walk without
+/// tracked points, `vo::Error` naming one whose frame rate is too low to see steps.
 PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptions& options = {});
+
+/// The same without its steps: what they were read from was no walker's.
+PedestrianMotion without_steps(PedestrianMotion motion, const PedestrianMotionOptions& options = {});
 
 }  // namespace vo

@@ -1,47 +1,121 @@
 #include "vo/gait/activity.hpp"
 
-#include "vo/gait/lowpass.hpp"
+#include "vo/gait/periodicity.hpp"
+#include "vo/gait/step_length.hpp"
+#include "vo/gait/walker.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <stdexcept>
 
 namespace vo {
+namespace {
 
-std::vector<ActivitySecond> detect_activity(std::span<const double> signal_deg,
-                                            std::span<const double> time_s, const std::vector<bool>& reliable,
-                                            const ActivityOptions& options) {
-  if (time_s.size() != signal_deg.size() || reliable.size() != signal_deg.size())
-    throw std::invalid_argument("detect_activity: one time and one flag per frame expected");
-  if (!(options.run_step_hz > 0 && options.moving_ratio >= 0 && options.min_reliable >= 0))
-    throw std::invalid_argument("detect_activity: run_step_hz above 0 and ratios >= 0 expected");
+/// The time that a step takes, and the cadence about it.
+struct Stepping {
+  double begin_s = 0;
+  double end_s = 0;
+  double hz = 0;
+};
+
+std::vector<Stepping> stepping(std::span<const Step> steps, const PartialSteps& partial, double pause_s) {
+  std::vector<Stepping> all;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::optional<double> hz = local_cadence_hz(steps, i, pause_s);
+    if (!hz) continue;  // a single step is none of a gait
+    const double end_s = steps[i].time_s;
+    const bool first = i == 0 || end_s - steps[i - 1].time_s > pause_s;
+    all.push_back({first ? end_s - 1 / *hz : steps[i - 1].time_s, end_s, *hz});
+    if (i + 1 == steps.size() && partial.after > 0) all.push_back({end_s, end_s + partial.after / *hz, *hz});
+  }
+  return all;
+}
+
+/// Frames [begin, end) of a second.
+struct Seen {
+  double reliable = 0;      ///< share of them
+  double growth_per_s = 0;  ///< mean of those reliable
+};
+
+Seen seen_in(const GaitSignal& signal, std::size_t begin, std::size_t end) {
+  Seen seen;
+  double known = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!signal.reliable[i]) continue;
+    ++known;
+    seen.growth_per_s += signal.growth_per_s[i];
+  }
+  if (known > 0) seen.growth_per_s /= known;
+  if (end > begin) seen.reliable = known / static_cast<double>(end - begin);
+  return seen;
+}
+
+bool steps_near(std::span<const Step> steps, double from_s, double to_s) {
+  constexpr double kNear_s = 5;
+  const auto after = std::ranges::lower_bound(steps, from_s - kNear_s, {}, &Step::time_s);
+  return after != steps.end() && after->time_s <= to_s + kNear_s;
+}
+
+}  // namespace
+
+std::string_view name_of(Activity activity) {
+  switch (activity) {
+    case Activity::kStanding:
+      return "standing";
+    case Activity::kWalking:
+      return "walking";
+    case Activity::kRunning:
+      return "running";
+    case Activity::kRiding:
+      return "riding";
+    case Activity::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::vector<ActivitySecond> detect_activity(const GaitSignal& signal, std::span<const Step> steps,
+                                            const PartialSteps& partial, const ActivityOptions& options) {
+  if (!(options.run_step_hz > 0 && options.min_reliable >= 0 && options.pause_s > 0))
+    throw std::invalid_argument(
+        "detect_activity: run_step_hz and pause_s above 0, min_reliable >= 0 expected");
   std::vector<ActivitySecond> seconds;
+  const std::vector<double>& time_s = signal.time_s;
   if (time_s.empty()) return seconds;
 
   const std::size_t frames = time_s.size();
-  const double rate_hz = frames < 3 ? 1 : frame_rate_hz(time_s);
-  const auto windows = stride_periodicity(signal_deg, rate_hz, options.periodicity);
-  const std::vector<double> average_deg = local_gait_amplitude_deg(windows, frames);
-  const auto quarter = static_cast<std::size_t>(std::lround(rate_hz / 4));
+  const std::vector<Stepping> gait = stepping(steps, partial, options.pause_s);
+  const auto quarter = static_cast<std::size_t>(std::lround(signal.rate_hz / 4));
+  std::size_t next = 0;  // of `gait`, not yet over
   for (std::size_t begin = 0, end = 0; begin < frames; begin = end) {
     ActivitySecond second{.time_s = time_s.front() + static_cast<double>(seconds.size())};
-    std::size_t known = 0, gait = 0;
-    for (; end < frames && time_s[end] < second.time_s + 1; ++end) {
-      known += reliable[end] ? 1 : 0;
-      gait += average_deg[end] > 0 ? 1 : 0;
-    }
+    while (end < frames && time_s[end] < second.time_s + 1) ++end;
+    const double end_s = std::min(second.time_s + 1, time_s.back()), length_s = end_s - second.time_s;
     const std::size_t count = end - begin;
-    const std::size_t middle = begin + count / 2;
-    const Periodicity& window = nearest_window(windows, middle);
-    if (count > 0) second.amplitude_deg = sinusoid_amplitude_deg(signal_deg, middle, count / 2 + quarter);
-    if (frames >= 3 && count > 0 &&
-        static_cast<double>(known) >= options.min_reliable * static_cast<double>(count)) {
-      const bool moving =
-          2 * gait > count && second.amplitude_deg >= options.moving_ratio * average_deg[middle];
-      if (moving && window.step_s > 0) second.step_hz = 1 / window.step_s;
-      second.activity = !moving                                 ? Activity::kStanding
-                        : second.step_hz >= options.run_step_hz ? Activity::kRunning
-                                                                : Activity::kWalking;
+    if (count > 0)
+      second.amplitude_deg =
+          sinusoid_amplitude(signal.orientation.values, begin + count / 2, count / 2 + quarter);
+
+    double stepped_s = 0, steps_made = 0;
+    while (next < gait.size() && gait[next].end_s <= second.time_s) ++next;
+    for (std::size_t k = next; k < gait.size() && gait[k].begin_s < end_s; ++k) {
+      const double share_s = std::min(gait[k].end_s, end_s) - std::max(gait[k].begin_s, second.time_s);
+      if (!(share_s > 0)) continue;
+      stepped_s += share_s;
+      steps_made += share_s * gait[k].hz;
+    }
+    if (stepped_s > 0 && 2 * stepped_s >= length_s) {
+      second.step_hz = steps_made / stepped_s;
+      second.activity = second.step_hz >= options.run_step_hz ? Activity::kRunning : Activity::kWalking;
+    } else if (const Seen seen = seen_in(signal, begin, end);
+               frames >= 3 && count > 0 && seen.reliable >= options.min_reliable) {
+      if (std::abs(seen.growth_per_s) < kLeastGrowth_per_s) {
+        second.activity = Activity::kStanding;
+      } else if (!steps_near(steps, second.time_s, end_s)) {
+        second.activity = Activity::kRiding;
+      }
     }
     seconds.push_back(second);
   }

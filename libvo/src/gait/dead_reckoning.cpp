@@ -58,8 +58,8 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
   if (!(partial.first >= 0 && partial.first <= 1 && partial.after >= 0 && partial.after <= 1))
     throw std::invalid_argument("step_displacement_m: shares of a step from 0 to 1 expected");
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (steps[i].frame <= (i == 0 ? 0 : steps[i - 1].frame) || steps[i].frame >= time_s.size())
-      throw std::invalid_argument("step_displacement_m: frames that increase, of the walk, expected");
+    if (steps[i].frame < (i == 0 ? 1 : steps[i - 1].frame) || steps[i].frame >= time_s.size())
+      throw std::invalid_argument("step_displacement_m: frames that do not decrease, of the walk, expected");
   }
   std::vector<double> displacement_m(time_s.size(), 0);
   if (steps.empty()) return displacement_m;
@@ -113,8 +113,9 @@ DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> l
     const double from_x_m = x_m, from_y_m = y_m;
     while (frame <= step.frame)
       go_on(displacement_m[frame], heading_rad[options.heading_over_step ? frame : step.frame]);
-    const double heading = options.heading_over_step ? std::atan2(x_m - from_x_m, y_m - from_y_m)
-                                                     : wrap_angle_rad(heading_rad[step.frame]);
+    const bool moved = x_m != from_x_m || y_m != from_y_m;  // not within a gap of the clock
+    const double heading = options.heading_over_step && moved ? std::atan2(x_m - from_x_m, y_m - from_y_m)
+                                                              : wrap_angle_rad(heading_rad[step.frame]);
     walk.at_step.push_back({x_m, y_m, heading});
   }
   while (frame < time_s.size()) go_on(displacement_m[frame], heading_rad[frame]);

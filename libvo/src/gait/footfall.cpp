@@ -1,5 +1,6 @@
 #include "vo/gait/footfall.hpp"
 
+#include "vo/base/clock.hpp"
 #include "vo/gait/lowpass.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ struct Bounce {
 
 /// Unlike the median of the windows that cover a frame, the largest within two windows is not less beside a
 /// stand.
-std::vector<double> largest_amplitude_px(const std::vector<Periodicity>& windows, std::size_t frames) {
+std::vector<double> largest_amplitude(const std::vector<Periodicity>& windows, std::size_t frames) {
   std::vector<double> largest(frames, 0);
   std::vector<bool> covered(frames, false);
   for (const Periodicity& window : windows) {
@@ -30,7 +31,7 @@ std::vector<double> largest_amplitude_px(const std::vector<Periodicity>& windows
     std::fill(covered.begin() + static_cast<std::ptrdiff_t>(begin),
               covered.begin() + static_cast<std::ptrdiff_t>(end), true);
     const auto [first, last] = about(3 * window.reach);
-    for (std::size_t i = first; i < last; ++i) largest[i] = std::max(largest[i], window.amplitude_deg);
+    for (std::size_t i = first; i < last; ++i) largest[i] = std::max(largest[i], window.amplitude);
   }
   for (std::size_t i = 0; i < frames; ++i) largest[i] = covered[i] ? largest[i] : 0;
   return largest;
@@ -71,6 +72,14 @@ void name_legs(std::vector<Step>& steps, std::span<const Step> legs) {
 
 }  // namespace
 
+std::vector<Periodicity> bounce_windows(std::span<const double> bounce_px, std::span<const double> time_s,
+                                        const PeriodicityOptions& options) {
+  PeriodicityOptions in_halves = options;
+  in_halves.min_step_hz *= 2;
+  in_halves.max_step_hz *= 2;
+  return stride_periodicity(bounce_px, time_s.size() < 2 ? 1 : frame_rate_hz(time_s), in_halves);
+}
+
 StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<const double> growth,
                                std::span<const double> time_s, const std::vector<bool>& reliable,
                                std::span<const Step> legs, const FootfallOptions& options) {
@@ -80,24 +89,19 @@ StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<cons
   if (!(options.min_depth > 0 && options.sure_depth >= options.min_depth))
     throw std::invalid_argument("detect_footfalls: 0 < min_depth <= sure_depth expected");
   StepDetection result;
-  result.delta_dyn_deg.assign(frames, 0);
+  result.delta_dyn.assign(frames, 0);
   if (frames < 3) return result;
 
-  PeriodicityOptions in_halves = options.periodicity;
-  in_halves.min_step_hz *= 2;
-  in_halves.max_step_hz *= 2;
-  Bounce bounce{.px = bounce_px,
-                .windows = stride_periodicity(bounce_px, frame_rate_hz(time_s), in_halves),
-                .amplitude_px = {}};
-  const auto average_px = gait_amplitude_deg(bounce.windows);
+  Bounce bounce{
+      .px = bounce_px, .windows = bounce_windows(bounce_px, time_s, options.periodicity), .amplitude_px = {}};
+  const auto average_px = gait_amplitude(bounce.windows);
   if (!average_px) return result;
-  bounce.amplitude_px = largest_amplitude_px(bounce.windows, frames);
-  result.delta_min_deg = options.min_depth * *average_px;
+  bounce.amplitude_px = largest_amplitude(bounce.windows, frames);
+  result.delta_min = options.min_depth * *average_px;
   result.gait_share =
       static_cast<double>(std::ranges::count_if(bounce.amplitude_px, [](double px) { return px > 0; })) /
       static_cast<double>(frames);
-  for (std::size_t i = 0; i < frames; ++i)
-    result.delta_dyn_deg[i] = options.min_depth * bounce.amplitude_px[i];
+  for (std::size_t i = 0; i < frames; ++i) result.delta_dyn[i] = options.min_depth * bounce.amplitude_px[i];
 
   const StepWay way(growth, time_s, valleys(bounce, time_s, reliable, options.sure_depth), options.way);
   if (!way.known()) return result;

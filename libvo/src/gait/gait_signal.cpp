@@ -1,5 +1,6 @@
 #include "vo/gait/gait_signal.hpp"
 
+#include "vo/base/clock.hpp"
 #include "vo/base/median.hpp"
 #include "vo/base/trajectory.hpp"
 
@@ -62,6 +63,7 @@ FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const Frame
     motion.picture = PictureMotion{motion.picture->right_px / frames, motion.picture->down_px / frames,
                                    motion.picture->growth / frames, motion.picture->roll_rad / frames};
   }
+  motion.window = tracks.span;
   motion.turn = turn(tracks.points, camera, options.heading);
   if (motion.turn) {
     motion.turn->turn_rad /= frames;
@@ -70,34 +72,46 @@ FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const Frame
   return motion;
 }
 
+std::string_view name_of(SignalUnit unit) {
+  return unit == SignalUnit::kDegrees ? "deg" : "px";
+}
+
+double least_gait(SignalUnit unit, double rate_hz) {
+  constexpr double kLeast_deg_s = 1, kLeast_px_s = 0.5;
+  return (unit == SignalUnit::kDegrees ? kLeast_deg_s : kLeast_px_s) / rate_hz;
+}
+
 GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const double> time_s,
                        const GaitSignalOptions& options) {
   if (motion.size() != time_s.size()) throw std::invalid_argument("gait_signal: one time per frame expected");
   const double rate_hz = frame_rate_hz(time_s);
-  GaitSignal signal;
-  signal.travel_rad = travel_rad(motion);
-  std::vector<double> shifts_px, turns_rad, down_px, growth;
+  GaitSignal signal{
+      .rate_hz = rate_hz, .time_s = {time_s.begin(), time_s.end()}, .travel_rad = travel_rad(motion)};
+  std::vector<double> orientation_deg, shifts_px, turns_rad, down_px, growth_per_s;
   std::vector<bool> seen;  // the picture's motion
   for (const FrameMotion& frame : motion) {
+    signal.matches.push_back(frame.matches);
     signal.reliable.push_back(frame.orientation_deg && frame.shift_px && frame.turn);
-    signal.orientation_deg.push_back(frame.orientation_deg.value_or(0));
+    orientation_deg.push_back(frame.orientation_deg.value_or(0));
     shifts_px.push_back(frame.shift_px.value_or(0));
     const PictureMotion picture = frame.picture.value_or(PictureMotion{});
     down_px.push_back(picture.down_px);
-    growth.push_back(picture.growth);
+    growth_per_s.push_back(picture.growth * rate_hz);
     seen.push_back(frame.picture.has_value());
     const Turn turn = frame.turn.value_or(Turn{});
     turns_rad.push_back(turn.turn_rad + turn.turn_per_travel * signal.travel_rad);
   }
   signal.bridged =
       static_cast<std::size_t>(std::count(signal.reliable.begin() + 1, signal.reliable.end(), false));
-  signal.orientation_deg = bridge_gaps(signal.orientation_deg, signal.reliable);
-  signal.filtered_orientation_deg = lowpass_zero_phase(signal.orientation_deg, rate_hz, options.lowpass);
-  signal.filtered_shift_px = lowpass_zero_phase(
-      without_drift(bridge_gaps(shifts_px, signal.reliable), rate_hz), rate_hz, options.lowpass);
-  signal.bounce_px = lowpass_zero_phase(without_drift(bridge_gaps(down_px, seen), rate_hz, kSlowestBounce_hz),
-                                        rate_hz, options.lowpass);
-  signal.growth = lowpass_zero_phase(bridge_gaps(growth, seen), rate_hz, options.lowpass);
+  const auto smooth = [&](std::span<const double> values) {
+    return lowpass_zero_phase(values, rate_hz, options.lowpass);
+  };
+  signal.orientation = {smooth(bridge_gaps(orientation_deg, signal.reliable)), SignalUnit::kDegrees};
+  signal.shift = {smooth(without_drift(bridge_gaps(shifts_px, signal.reliable), rate_hz)),
+                  SignalUnit::kPixels};
+  signal.bounce = {smooth(without_drift(bridge_gaps(down_px, seen), rate_hz, kSlowestBounce_hz)),
+                   SignalUnit::kPixels};
+  signal.growth_per_s = smooth(bridge_gaps(growth_per_s, seen));
 
   turns_rad = bridge_gaps(turns_rad, signal.reliable);
   turns_rad.front() = 0;

@@ -1,7 +1,5 @@
 #include "vo/gait/lowpass.hpp"
 
-#include "vo/base/median.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,16 +11,6 @@
 #include <fmt/format.h>
 
 namespace vo {
-
-double frame_rate_hz(std::span<const double> time_s) {
-  if (time_s.size() < 2) {
-    throw std::invalid_argument(
-        fmt::format("frame_rate_hz: {} times given; at least 2 expected", time_s.size()));
-  }
-  std::vector<double> gap_s(time_s.size() - 1);
-  for (std::size_t i = 0; i < gap_s.size(); ++i) gap_s[i] = time_s[i + 1] - time_s[i];
-  return 1 / median(std::move(gap_s));
-}
 
 std::vector<double> bridge_gaps(std::span<const double> values, const std::vector<bool>& reliable) {
   if (values.size() != reliable.size())

@@ -7,11 +7,8 @@
 #include <fmt/format.h>
 
 namespace vo {
-namespace {
-
-/// Steps per second about a step; none if it stands alone.
-std::optional<double> cadence_hz(std::span<const Step> steps, std::size_t i, double pause_s) {
-  constexpr std::size_t kStride = 2;  // left and right intervals differ, so whole strides
+std::optional<double> local_cadence_hz(std::span<const Step> steps, std::size_t i, double pause_s) {
+  constexpr std::size_t kStride = 2;
   std::size_t first = i, last = i;
   while (first > 0 && i - first < kStride && steps[first].time_s - steps[first - 1].time_s <= pause_s)
     --first;
@@ -21,8 +18,6 @@ std::optional<double> cadence_hz(std::span<const Step> steps, std::size_t i, dou
   if (first == last) return std::nullopt;
   return static_cast<double>(last - first) / (steps[last].time_s - steps[first].time_s);
 }
-
-}  // namespace
 
 double calibrated_step_length_m(double distance_m, double steps) {
   if (!(distance_m > 0 && steps > 0)) {
@@ -47,7 +42,7 @@ std::vector<double> step_lengths_m(std::span<const Step> steps, const StepLength
   std::vector<std::optional<double>> cadences(steps.size());
   double sum = 0, known = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    cadences[i] = cadence_hz(steps, i, options.pause_s);
+    cadences[i] = local_cadence_hz(steps, i, options.pause_s);
     if (!cadences[i]) continue;
     cadences[i] = bounded(*cadences[i]);
     sum += *cadences[i];

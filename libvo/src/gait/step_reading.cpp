@@ -1,10 +1,61 @@
 #include "vo/gait/step_reading.hpp"
 
+#include "vo/gait/walker.hpp"
+
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace vo {
 namespace {
+
+StepDetection detect(const Signal& values, const GaitSignal& signal, StepDetectionOptions options) {
+  options.periodicity.min_amplitude =
+      std::max(options.periodicity.min_amplitude, least_gait(values.unit, signal.rate_hz));
+  return detect_steps(values.values, signal.time_s, signal.reliable, options);
+}
+
+StepDetection read_orientation(const GaitSignal& signal, const StepReadingOptions& options) {
+  StepDetection steps = detect(signal.orientation, signal, options.detection);
+  const bool asked_for = options.signal == StepSignal::kOrientation || options.detection.delta_min;
+  if (!asked_for)
+    steps = fill_steps(steps, detect(signal.shift, signal, options.detection), signal.matches, signal.time_s,
+                       options.fusion);
+  return walkers_steps(std::move(steps), gets_on(signal));
+}
+
+StepDetection read_bounce(const GaitSignal& signal, const StepReadingOptions& options) {
+  FootfallOptions footfalls = options.footfalls;
+  footfalls.periodicity.min_amplitude =
+      std::max(footfalls.periodicity.min_amplitude, least_gait(signal.bounce.unit, signal.rate_hz));
+  const StepDetection legs = detect(signal.orientation, signal, options.detection);
+  StepDetection steps = detect_footfalls(signal.bounce.values, signal.growth_per_s, signal.time_s,
+                                         signal.reliable, legs.steps, footfalls);
+  std::vector<bool> walked = gets_on(signal);
+  const std::vector<bool> walker =
+      bounces_as_walker(signal, bounce_windows(signal.bounce.values, signal.time_s, footfalls.periodicity));
+  for (std::size_t i = 0; i < walked.size(); ++i) walked[i] = walked[i] && walker[i];
+  return walkers_steps(std::move(steps), walked);
+}
+
+StepDetection read_shift(const GaitSignal& signal, const StepReadingOptions& options) {
+  StepDetection steps = detect(signal.shift, signal, options.detection);
+  std::vector<std::size_t> frames;
+  for (const Step& step : steps.steps) frames.push_back(step.frame);
+  const StepWay way(signal.growth_per_s, signal.time_s, frames, options.footfalls.way);
+  steps = walkers_steps(complete_steps(std::move(steps), way, signal.shift.values, signal.time_s),
+                        gets_on(signal));
+  if (2 * steps.bridged <= steps.steps.size()) return steps;
+  StepDetection none{.delta_min = steps.delta_min, .delta_dyn = std::move(steps.delta_dyn)};
+  return none;
+}
+
+constexpr std::array kReaders{
+    StepReader{StepSignal::kOrientation, "orientation", &GaitSignal::orientation, read_orientation},
+    StepReader{StepSignal::kBounce, "bounce", &GaitSignal::bounce, read_bounce},
+    StepReader{StepSignal::kShift, "x shift", &GaitSignal::shift, read_shift}};
 
 /// The bounce unless another signal is like gait in more of the walk; of those, PVO's if it shows any step.
 StepSignal best_signal(const StepDetection& by_orientation, const StepDetection& by_shift,
@@ -16,55 +67,26 @@ StepSignal best_signal(const StepDetection& by_orientation, const StepDetection&
                                                                  : StepSignal::kOrientation;
 }
 
-StepDetection with_lost_steps(StepDetection by_shift, const GaitSignal& signal,
-                              std::span<const double> time_s, const StepWayOptions& options) {
-  std::vector<std::size_t> frames;
-  for (const Step& step : by_shift.steps) frames.push_back(step.frame);
-  const StepWay way(signal.growth, time_s, frames, options);
-  return complete_steps(std::move(by_shift), way, signal.filtered_shift_px, time_s);
-}
-
 }  // namespace
 
-StepReading read_steps(const GaitSignal& signal, std::span<const std::size_t> matches,
-                       std::span<const double> time_s, const StepReadingOptions& options) {
-  const auto detect = [&](StepSignal which) {
-    return detect_steps(values_of(which, signal), time_s, signal.reliable, options.detection);
-  };
-  StepDetection by_orientation = detect(StepSignal::kOrientation);
-  if (options.signal == StepSignal::kOrientation || options.detection.delta_min_deg)
-    return {StepSignal::kOrientation, StepSignal::kOrientation, std::move(by_orientation)};
-
-  StepReading reading;
-  if (by_orientation.gait_share == 0) reading.stride = StepSignal::kShift;
-  StepDetection by_shift = detect(StepSignal::kShift);
-  StepDetection by_bounce = detect_footfalls(signal.bounce_px, signal.growth, time_s, signal.reliable,
-                                             by_orientation.steps, options.footfalls);
-  reading.signal = options.signal.value_or(best_signal(by_orientation, by_shift, by_bounce));
-  switch (reading.signal) {
-    case StepSignal::kBounce:
-      reading.detection = std::move(by_bounce);
-      break;
-    case StepSignal::kShift:
-      reading.detection = with_lost_steps(std::move(by_shift), signal, time_s, options.footfalls.way);
-      break;
-    case StepSignal::kOrientation:
-      reading.detection = fill_steps(by_orientation, by_shift, matches, time_s, options.fusion);
-      break;
-  }
-  return reading;
+std::span<const StepReader> step_readers() {
+  return kReaders;
 }
 
-const std::vector<double>& values_of(StepSignal which, const GaitSignal& signal) {
-  switch (which) {
-    case StepSignal::kBounce:
-      return signal.bounce_px;
-    case StepSignal::kShift:
-      return signal.filtered_shift_px;
-    case StepSignal::kOrientation:
-      break;
-  }
-  return signal.filtered_orientation_deg;
+const StepReader& reader_of(StepSignal signal) {
+  return kReaders[static_cast<std::size_t>(signal)];
+}
+
+StepReading read_steps(const GaitSignal& signal, const StepReadingOptions& options) {
+  std::optional<StepSignal> asked = options.signal;
+  if (options.detection.delta_min) asked = StepSignal::kOrientation;
+  if (asked) return {*asked, reader_of(*asked).read(signal, options)};
+  std::array<StepDetection, kReaders.size()> found;
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] = kReaders[i].read(signal, options);
+  const auto of = [&](StepSignal which) -> StepDetection& { return found[static_cast<std::size_t>(which)]; };
+  const StepSignal best =
+      best_signal(of(StepSignal::kOrientation), of(StepSignal::kShift), of(StepSignal::kBounce));
+  return {best, std::move(of(best))};
 }
 
 }  // namespace vo

@@ -162,7 +162,7 @@ StepDetection complete_steps(StepDetection detection, const StepWay& way, std::s
     if (count >= 1) {
       for (double k = 1; k < count; ++k) add_lost(way.after(from, length * k / count));
       steps.push_back(step);
-    } else if (std::abs(step.value_deg) > std::abs(steps.back().value_deg)) {
+    } else if (std::abs(step.value) > std::abs(steps.back().value)) {
       steps.back() = step;
     }
   }

@@ -1,5 +1,6 @@
 #include "vo/motion/hybrid_motion.hpp"
 
+#include "vo/base/clock.hpp"
 #include "vo/motion/motion_model.hpp"
 
 #include <algorithm>
@@ -66,25 +67,28 @@ Displacements errors_as_displacement(const MotionEvidence& evidence, const Displ
   Displacements displacement(evidence.time_s.size());
   if (evidence.errors == nullptr) return displacement;
   const AlignmentErrors& errors = *evidence.errors;
-  const auto put = [&](FrameRange target, const std::vector<double>& values) {
+  const auto put = [&](FrameRange target, const Displacements& values) {
     for (std::size_t i = target.begin; i < target.end && !values.empty(); ++i)
       if (evidence.errors_known[i]) displacement[i] = values[i - target.begin];
   };
   if (std::ranges::none_of(known, [](const auto& d) { return d && *d > 0; })) {
     std::vector<bool> excluded = evidence.errors_known;
     excluded.flip();
-    const MotionModel model = learn_motion_model(mean_error_by_separation(errors, excluded));
+    for (std::size_t i = 0; i < evidence.standing.size(); ++i)
+      excluded[i] = excluded[i] || evidence.standing[i];
+    const MotionModel model = learn_motion_model(mean_errors(errors, excluded));
     put({0, displacement.size()},
-        apply_motion_model(errors, model, options.relation.separations, options.relation.max_speed));
+        apply_motion_model(errors, model, evidence.time_s, options.relation.separations,
+                           options.relation.max_speed));
     return displacement;
   }
   for (const FrameRange& target : targets) {
-    std::vector<double> values = predict_displacement(
-        errors, evidence.errors_known, known, frames_around(evidence.time_s, target, options.window_s),
-        target, options.relation);
+    Displacements values = predict_displacement(errors, evidence.time_s, evidence.errors_known, known,
+                                                frames_around(evidence.time_s, target, options.window_s),
+                                                target, options.relation);
     if (values.empty())
-      values = predict_displacement(errors, evidence.errors_known, known, {0, displacement.size()}, target,
-                                    options.relation);
+      values = predict_displacement(errors, evidence.time_s, evidence.errors_known, known,
+                                    {0, displacement.size()}, target, options.relation);
     put(target, values);
   }
   return displacement;
@@ -119,9 +123,12 @@ void hold_speed(std::vector<FrameDisplacement>& frames, std::span<const double> 
     const auto before = speed_beside(frames, time_s, range, false);
     const auto after = speed_beside(frames, time_s, range, true);
     const double from = before.value_or(after.value_or(0)), to = after.value_or(from);
+    const double begin_s = time_s[range.begin - 1], length_s = time_s[range.end - 1] - begin_s;
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const double share = (static_cast<double>(i - range.begin) + 0.5) / static_cast<double>(range.size());
-      frames[i].value = std::lerp(from, to, share) * (time_s[i] - time_s[i - 1]);
+      const double frame_s = time_s[i] - time_s[i - 1];
+      if (frame_s > kLongestFilledGap_s) continue;  // what was done in it is not known
+      const double share = (time_s[i] - frame_s / 2 - begin_s) / length_s;
+      frames[i].value = std::lerp(from, to, share) * frame_s;
       frames[i].sigma = variation * frames[i].value;
     }
   }

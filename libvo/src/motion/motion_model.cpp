@@ -57,72 +57,89 @@ class Curve {
   std::array<double, kSteps + 1> value_;
 };
 
-/// estimates[k - 1][i]: speed from frames i and i + k; infinite where there is none to be had.
+/// estimates[k][i]: speed from frame i on, over k + 1 spans; infinite where there is none to be had.
 using SpeedEstimates = std::vector<std::vector<double>>;
 
-SpeedEstimates empty_estimates(const AlignmentErrors& errors, int separations) {
-  if (separations < 1 || separations > errors.max_separation()) {
-    throw std::invalid_argument("estimate_motion: separations must be in 1 .. max_separation");
-  }
-  SpeedEstimates estimates(static_cast<std::size_t>(separations));
-  for (std::size_t k = 1; k <= estimates.size(); ++k) estimates[k - 1].resize(errors.by_separation[k].size());
-  return estimates;
+constexpr double kNoSpeed = std::numeric_limits<double>::infinity();
+
+SpeedEstimates empty_estimates(const AlignmentErrors& errors, std::span<const double> time_s,
+                               int separations) {
+  if (separations < 1 || static_cast<std::size_t>(separations) > errors.spans())
+    throw std::invalid_argument("estimate_motion: separations must be in 1 .. the number of spans");
+  if (time_s.size() != errors.frames())
+    throw std::invalid_argument("estimate_motion: one time per frame expected");
+  return SpeedEstimates(static_cast<std::size_t>(separations),
+                        std::vector<double>(errors.frames(), kNoSpeed));
 }
 
 void estimate_speeds(const AlignmentErrors& errors, const MotionModel& model, std::size_t begin,
                      std::size_t end, SpeedEstimates& estimates) {
   const Curve curve(model);
-  for (std::size_t k = 1; k <= estimates.size(); ++k) {
-    const std::vector<float>& error = errors.by_separation[k];
-    for (std::size_t i = begin; i < std::min(end, error.size()); ++i) {
-      const bool clamped = error[i] >= model.error.back();
-      estimates[k - 1][i] = k > 1 && clamped ? std::numeric_limits<double>::infinity()
-                                             : curve(error[i]) / static_cast<double>(k);
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    for (std::size_t i = begin; i < std::min(end, errors.frames()); ++i) {
+      const Comparison& compared = errors.by_span[k][i];
+      if (!compared.made()) continue;
+      const bool shortest = k == 0 || compared.frames == 1;
+      if (shortest || compared.error < model.error.back())
+        estimates[k][i] = curve(compared.error) / compared.seconds;
     }
   }
 }
 
-/// The least over k of the mean estimate of the spans that contain the step from frame j to j + 1.
-double least_speed(const SpeedEstimates& estimates, std::size_t j) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 1; k <= estimates.size(); ++k) {
-    const std::vector<double>& speeds = estimates[k - 1];
-    if (speeds.empty()) break;
-    const std::size_t first = j + 1 >= k ? j + 1 - k : 0;
-    const std::size_t last = std::min(j, speeds.size() - 1);
-    double sum = 0;
-    for (std::size_t i = first; i <= last; ++i) sum += speeds[i];
-    if (first <= last) least = std::min(least, sum / static_cast<double>(last - first + 1));
+/// At each frame the least over k of the mean estimate of the spans that contain the step to it; infinite
+/// where none does.
+std::vector<double> least_speeds(const AlignmentErrors& errors, const SpeedEstimates& estimates) {
+  const std::size_t frames = errors.frames();
+  std::vector<double> least(frames, kNoSpeed);
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    std::vector<double> sum(frames, 0), count(frames, 0);
+    for (std::size_t i = 0; i < frames; ++i) {
+      for (std::size_t j = i + 1; j <= i + errors.by_span[k][i].frames; ++j) {
+        sum[j] += estimates[k][i];
+        ++count[j];
+      }
+    }
+    for (std::size_t j = 0; j < frames; ++j)
+      if (count[j] > 0) least[j] = std::min(least[j], sum[j] / count[j]);
   }
   return least;
 }
 
-std::vector<double> least_speeds(const SpeedEstimates& estimates, std::size_t frames,
-                                 double max_displacement) {
-  std::vector<double> displacement(frames, 0.0);
-  for (std::size_t j = 0; j + 1 < frames; ++j)
-    displacement[j + 1] = std::min(max_displacement, least_speed(estimates, j));
+std::vector<std::optional<double>> displacements(const AlignmentErrors& errors,
+                                                 const SpeedEstimates& estimates,
+                                                 std::span<const double> time_s, double max_speed) {
+  const std::vector<double> speed = least_speeds(errors, estimates);
+  std::vector<std::optional<double>> displacement(speed.size());
+  if (!displacement.empty()) displacement[0] = 0;
+  for (std::size_t i = 1; i < speed.size(); ++i)
+    if (speed[i] < kNoSpeed) displacement[i] = std::min(max_speed, speed[i]) * (time_s[i] - time_s[i - 1]);
   return displacement;
 }
 
 /// Mean errors over frames [begin, end) only.
-std::vector<double> mean_errors_within(const AlignmentErrors& errors, std::vector<bool> excluded,
-                                       std::size_t begin, std::size_t end) {
+MeanErrors mean_errors_within(const AlignmentErrors& errors, std::vector<bool> excluded, std::size_t begin,
+                              std::size_t end) {
   excluded.resize(errors.frames(), false);
   for (std::size_t i = 0; i < excluded.size(); ++i) {
     if (i < begin || i >= end) excluded[i] = true;
   }
-  return mean_error_by_separation(errors, excluded);
+  return mean_errors(errors, excluded);
+}
+
+std::vector<double> or_zero(const std::vector<std::optional<double>>& values) {
+  std::vector<double> numbers;
+  for (const std::optional<double>& value : values) numbers.push_back(value.value_or(0));
+  return numbers;
 }
 
 }  // namespace
 
-MotionModel learn_motion_model(std::span<const double> mean_error_by_separation) {
+MotionModel learn_motion_model(const MeanErrors& means) {
   MotionModel model{.error = {0}, .separation = {0}};
-  for (std::size_t s = 1; s < mean_error_by_separation.size(); ++s) {
-    if (!(mean_error_by_separation[s] > model.error.back())) break;
-    model.error.push_back(mean_error_by_separation[s]);
-    model.separation.push_back(static_cast<double>(s));
+  for (std::size_t k = 1; k < means.error.size(); ++k) {
+    if (!(means.error[k] > model.error.back())) break;
+    model.error.push_back(means.error[k]);
+    model.separation.push_back(means.seconds[k]);
   }
   return model;
 }
@@ -144,11 +161,17 @@ MotionModel learn_motion_model(const AlignmentErrors& errors, std::span<const do
     double displacement, error;
   };
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i + 1 < known.size(); ++i) {
-    double travelled = 0;
-    for (std::size_t s = 1; s < errors.by_separation.size() && i + s < known.size() && known[i + s]; ++s) {
-      travelled += displacement[i + s];
-      pairs.push_back({travelled, errors.by_separation[s][i]});
+  std::vector<double> travelled{0};     // up to each frame
+  std::vector<std::size_t> unknown{0};  // how many frames, up to each
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    travelled.push_back(travelled.back() + (known[i] ? displacement[i] : 0));
+    unknown.push_back(unknown.back() + (known[i] ? 0 : 1));
+  }
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    for (const auto& comparisons : errors.by_span) {
+      const std::size_t later = i + comparisons[i].frames;
+      if (later == i || unknown[later + 1] > unknown[i + 1]) continue;
+      pairs.push_back({travelled[later + 1] - travelled[i + 1], comparisons[i].error});
     }
   }
   if (pairs.size() < 10 * kMotionModelBins) return model;
@@ -169,32 +192,31 @@ MotionModel learn_motion_model(const AlignmentErrors& errors, std::span<const do
   return model;
 }
 
-std::vector<double> apply_motion_model(const AlignmentErrors& errors, const MotionModel& model,
-                                       int separations, double max_displacement) {
-  if (!(max_displacement > 0))
-    throw std::invalid_argument("apply_motion_model: max_displacement must be positive");
-  SpeedEstimates estimates = empty_estimates(errors, separations);
-  if (!model.learned()) return std::vector<double>(errors.frames(), 0.0);
+std::vector<std::optional<double>> apply_motion_model(const AlignmentErrors& errors, const MotionModel& model,
+                                                      std::span<const double> time_s, int separations,
+                                                      double max_speed) {
+  if (!(max_speed > 0)) throw std::invalid_argument("apply_motion_model: max_speed must be positive");
+  SpeedEstimates estimates = empty_estimates(errors, time_s, separations);
+  if (!model.learned()) return std::vector<std::optional<double>>(errors.frames(), 0.0);
   estimate_speeds(errors, model, 0, errors.frames(), estimates);
-  return least_speeds(estimates, errors.frames(), max_displacement);
+  return displacements(errors, estimates, time_s, max_speed);
 }
 
 std::vector<double> estimate_motion(const AlignmentErrors& errors, const std::vector<bool>& excluded,
                                     std::span<const double> time_s, const MotionModelOptions& options) {
   if (!(options.max_speed > 0)) throw std::invalid_argument("estimate_motion: max_speed must be positive");
-  SpeedEstimates estimates = empty_estimates(errors, options.separations);
+  SpeedEstimates estimates = empty_estimates(errors, time_s, options.separations);
   const std::size_t frames = errors.frames();
   if (frames < 2) return std::vector<double>(frames, 0.0);
   if (options.local_window_s <= 0) {
-    const MotionModel model = learn_motion_model(mean_error_by_separation(errors, excluded));
-    return apply_motion_model(errors, model, options.separations, options.max_speed);
+    const MotionModel model = learn_motion_model(mean_errors(errors, excluded));
+    return or_zero(apply_motion_model(errors, model, time_s, options.separations, options.max_speed));
   }
-  if (time_s.size() != frames) throw std::invalid_argument("estimate_motion: one time per frame expected");
   // A new model every quarter of a window, learned from the window that ends there; the first one serves
   // until then.
   const double hop_s = options.local_window_s / 4;
   std::size_t begin = 0;
-  for (double end_s = options.local_window_s;; end_s += hop_s) {
+  for (double end_s = time_s[0] + options.local_window_s;; end_s += hop_s) {
     const auto frame_at = [&](double s) {
       return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
     };
@@ -205,7 +227,7 @@ std::vector<double> estimate_motion(const AlignmentErrors& errors, const std::ve
     if (end >= frames) break;
     begin = end;
   }
-  return least_speeds(estimates, frames, options.max_speed);
+  return or_zero(displacements(errors, estimates, time_s, options.max_speed));
 }
 
 }  // namespace vo

@@ -105,13 +105,13 @@ std::optional<SegmentTie> tie_by_relation(const MotionEvidence& evidence, FrameR
   const FrameRange after{run.begin, std::min(run.end, near.end)};
   const FrameRange before = known_before(tied, run.begin, near.end - run.begin);
   const std::vector<bool> usable = usable_errors(evidence);
-  const std::vector<double> predicted =
-      predict_displacement(*evidence.errors, usable, tied, before, after, options.relation);
+  const auto predicted =
+      predict_displacement(*evidence.errors, evidence.time_s, usable, tied, before, after, options.relation);
   double by_relation = 0, by_track = 0;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     const std::size_t frame = after.begin + i;
-    if (!usable[frame] || !way[frame]) continue;
-    by_relation += predicted[i];
+    if (!usable[frame] || !way[frame] || !predicted[i]) continue;
+    by_relation += *predicted[i];
     by_track += *way[frame];
   }
   if (!(by_relation > 0 && by_track > 0)) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
+#include "vo/base/percentile.hpp"
 #include "vo/image/patch_normalisation.hpp"
 #include "vo/motion/alignment_error.hpp"
 
@@ -15,13 +16,29 @@
 
 namespace vo {
 
-double distant_error(const ImageStack& normalised) {
-  const std::size_t half = normalised.size() / 2;
-  if (half == 0) return 0;
-  std::vector<double> errors(normalised.size() - half);
-  parallel_for(errors.size(),
-               [&](std::size_t i) { errors[i] = alignment_error(normalised[i], normalised[i + half]); });
-  return median(std::move(errors));
+namespace {
+
+/// Errors of the frames not excluded with those half of their number on.
+std::vector<double> distant_errors(const ImageStack& normalised, const std::vector<bool>& excluded) {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < normalised.size(); ++i)
+    if (excluded.empty() || !excluded[i]) frames.push_back(i);
+  const std::size_t half = frames.size() / 2;
+  if (half == 0) return {};
+  std::vector<double> errors(frames.size() - half);
+  parallel_for(errors.size(), [&](std::size_t i) {
+    errors[i] = alignment_error(normalised[frames[i]], normalised[frames[i + half]]);
+  });
+  return errors;
+}
+
+}  // namespace
+
+double distant_error(const ImageStack& normalised, const std::vector<bool>& excluded) {
+  if (!excluded.empty() && excluded.size() != normalised.size())
+    throw std::invalid_argument("distant_error: one flag per frame expected");
+  std::vector<double> errors = distant_errors(normalised, excluded);
+  return errors.empty() ? 0 : median(std::move(errors));
 }
 
 bool standing_still(double distant_error) {
@@ -38,6 +55,7 @@ std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const d
   const auto frame_at = [&](double s) {
     return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
   };
+  constexpr double kLongest = 1.5;  // times the span, at hardly a frame a second
   const double limit = options.alike * distant_error;
   const std::vector<std::uint8_t> blank(normalised.image_size(), kNeutralByte);
   std::vector<char> shows(normalised.size());  // a picture of nothing is like any other
@@ -51,6 +69,7 @@ std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const d
     const std::size_t middle = frame_at(time_s[first] + options.span_s / 2);
     const std::size_t end = frame_at(time_s[first] + options.span_s);
     if (end >= normalised.size() || middle == first || end == middle) return;
+    if (time_s[end] - time_s[first] > kLongest * options.span_s) return;  // the clock jumped in between
     const auto alike = [&](std::size_t a, std::size_t b) {
       return shows[a] && shows[b] && alignment_error(normalised[a], normalised[b]) < limit;
     };
@@ -62,6 +81,24 @@ std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const d
     standing[i + 1] = i + 1 <= covered;
   }
   return standing;
+}
+
+Stands find_stands(const ImageStack& normalised, std::span<const double> time_s,
+                   const StandingOptions& options) {
+  constexpr double kMostUnlike = 0.9;
+  std::vector<double> errors = distant_errors(normalised, {});
+  std::ranges::sort(errors);
+  Stands stands;
+  stands.still = errors.empty() || standing_still(percentile(errors, kMostUnlike));
+  if (stands.still) return stands;
+  stands.distant_error = percentile(errors, 0.5);
+  if (standing_still(stands.distant_error)) stands.distant_error = percentile(errors, kMostUnlike);
+  stands.standing = standing_steps(normalised, time_s, stands.distant_error, options);
+  if (2 * static_cast<std::size_t>(std::ranges::count(stands.standing, true)) <= normalised.size())
+    return stands;
+  stands.distant_error = distant_error(normalised, stands.standing);
+  stands.standing = standing_steps(normalised, time_s, stands.distant_error, options);
+  return stands;
 }
 
 }  // namespace vo

@@ -1,5 +1,6 @@
 #include "vo/motion/walk_motion.hpp"
 
+#include "vo/base/clock.hpp"
 #include "vo/base/error.hpp"
 #include "vo/gait/lowpass.hpp"
 #include "vo/motion/height_by_steps.hpp"
@@ -36,7 +37,9 @@ WalkMotion by_steps(const Walk& walk, const PedestrianMotionOptions& options) {
   motion.pedestrian = pedestrian_motion(walk, options);
   motion.metric = true;
   motion.trajectory = motion.pedestrian->trajectory.at_frame;
-  motion.frames = from_one(motion.pedestrian->displacement_m, DisplacementSource::kSteps, kUsualStepsError);
+  const bool steps = !motion.pedestrian->detection.steps.empty();
+  motion.frames = from_one(motion.pedestrian->displacement_m,
+                           steps ? DisplacementSource::kSteps : DisplacementSource::kNone, kUsualStepsError);
   return motion;
 }
 
@@ -48,44 +51,62 @@ WalkMotion by_alignment_error(const Walk& walk, const VisualMotionOptions& optio
   return motion;
 }
 
-/// Frames whose steps could be seen, or were filled in.
-std::vector<bool> steps_seen(const PedestrianMotion& motion) {
+/// Frames whose steps could be seen, or were filled in; in a jump of the clock nothing was.
+std::vector<bool> steps_seen(const PedestrianMotion& motion, const Walk& walk) {
   std::vector<bool> seen = motion.signal.reliable;
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] || motion.displacement_m[i] > 0;
+  for (const ClockGap& gap : walk.gaps) seen[gap.frame] = false;
   return seen;
 }
 
-/// False where steps were found during less than half of the time that the camera is seen to move, or have it
-/// nearer to the ground, or higher, than one that is carried: the bounce and sway of a car look like steps.
-bool on_foot(const PedestrianMotion& motion, const Walk& walk, const std::vector<bool>& standing) {
-  constexpr double kLowest_m = 0.5, kHighest_m = 3;  // from hip to above the head, and steps half as long
+/// False where steps were found during less than half of the time that the camera is seen to move.
+bool steps_throughout(const PedestrianMotion& motion, const Walk& walk, const std::vector<bool>& standing) {
   std::size_t moving = 0, stepping = 0;
   for (std::size_t i = 1; i < walk.frames(); ++i) {
-    if (!walk.track || !walk.track->frames[i].valid || standing[i]) continue;
+    if (!walk.track || !walk.track->frames[i].valid || (!standing.empty() && standing[i])) continue;
     ++moving;
     stepping += motion.displacement_m[i] > 0 ? 1 : 0;
   }
-  if (motion.detection.steps.empty() || 2 * stepping < moving) return false;
+  return !motion.detection.steps.empty() && 2 * stepping >= moving;
+}
+
+/// False where steps would have the camera nearer to the ground, or higher, than one that is carried: the
+/// bounce and sway of a car may look like steps.
+bool carried(const PedestrianMotion& motion, const Walk& walk) {
+  constexpr double kLowest_m = 0.5, kHighest_m = 3;  // from hip to above the head, and steps half as long
   if (!walk.track) return true;
   const std::optional<double> height_m = height_by_steps_m(*walk.track, motion.displacement_m);
   return !height_m || (*height_m >= kLowest_m && *height_m <= kHighest_m);
 }
 
+/// A camera that does not move from where it is.
+WalkMotion standing_throughout(WalkMotion motion, const Walk& walk) {
+  motion.frames = from_one(std::vector<double>(walk.frames(), 0), DisplacementSource::kAlignmentError, 0);
+  if (motion.pedestrian) motion.trajectory = motion.pedestrian->trajectory.at_frame;
+  return motion;
+}
+
 WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& options) {
   WalkMotion motion;
-  motion.visual = visual_motion(walk, options.visual);
-  MotionEvidence evidence{.time_s = walk.time_s,
-                          .track = walk.track ? &*walk.track : nullptr,
-                          .errors = &motion.visual->errors,
-                          .errors_known = motion.visual->usable,
-                          .standing = motion.visual->standing};
+  motion.visual = visual_motion_if_any(walk, options.visual);
+  MotionEvidence evidence{.time_s = walk.time_s, .track = walk.track ? &*walk.track : nullptr};
+  if (motion.visual) {
+    evidence.errors = &motion.visual->errors;
+    evidence.errors_known = motion.visual->usable;
+    evidence.standing = motion.visual->standing;
+  }
   if (with_steps) {
     motion.pedestrian = pedestrian_motion(walk, options.pedestrian);
-    if (on_foot(*motion.pedestrian, walk, motion.visual->standing)) {
+    if (!carried(*motion.pedestrian, walk))
+      motion.pedestrian = without_steps(std::move(*motion.pedestrian), options.pedestrian);
+    if (steps_throughout(*motion.pedestrian, walk, evidence.standing)) {
       evidence.steps_m = motion.pedestrian->displacement_m;
-      evidence.steps_known = steps_seen(*motion.pedestrian);
+      evidence.steps_known = steps_seen(*motion.pedestrian, walk);
     }
   }
+  const bool file = walk.track && walk.track->scale != TrackScale::kPerSegment;
+  if (!motion.visual && evidence.steps_m.empty() && !file)
+    return standing_throughout(std::move(motion), walk);
   HybridMotion hybrid = hybrid_motion(evidence, options.hybrid);
   motion.frames = std::move(hybrid.frames);
   motion.metric = hybrid.metric;

@@ -129,7 +129,38 @@ TEST(ReadWalk, IsTheSameForAnyThreadCount) {
   EXPECT_EQ(one.previews, four.previews);
 }
 
-TEST(VisualMotion, OfASteadyWalkIsOneFramePerFrame) {
+TEST(ReadWalk, SaysWhereTheClockJumps) {
+  /// Frames at 10 Hz whose clock jumps at the 10th and the 20th.
+  class Jumping final : public vo::FrameSource {
+   public:
+    std::optional<vo::Frame> next() override {
+      if (index_ == 30) return std::nullopt;
+      vo::Frame frame;
+      frame.image = cv::Mat(20, 20, CV_8UC1, cv::Scalar(100));
+      frame.time_s = index_ / 10.0;
+      if (index_ >= 10) frame.time_s += 2;
+      if (index_ >= 20) frame.time_s += 8;
+      ++index_;
+      return frame;
+    }
+
+   private:
+    int index_ = 0;
+  } frames;
+  vo::WalkOptions options{.visual_odometry = true};
+  const vo::Walk walk = vo::read_walk(frames, "walk.mp4", options);
+  ASSERT_THAT(walk.gaps, SizeIs(2));
+  EXPECT_EQ(walk.gaps[0].frame, 10U);
+  EXPECT_NEAR(walk.gaps[0].length_s, 2.1, 1e-9);
+  EXPECT_EQ(walk.gaps[1].frame, 20U);
+  ASSERT_THAT(walk.warnings, SizeIs(1));  // the short one is filled
+  EXPECT_THAT(walk.warnings[0],
+              testing::StartsWith("walk.mp4: no frames for 8.1 s, from 3.90 s on (frame 19)"));
+  EXPECT_FALSE(walk.track->frames[20].valid);
+  EXPECT_EQ(walk.track->frames[20].loss, vo::TrackLoss::kGap);
+}
+
+TEST(VisualMotion, OfASteadyWalkIsASecondASecond) {
   const Wall wall(1000, 1);
   const auto motion = vo::visual_motion(wall.walk(places(0, std::vector<double>(599, 0.5))));
   ASSERT_THAT(motion.displacement, SizeIs(600));
@@ -138,7 +169,7 @@ TEST(VisualMotion, OfASteadyWalkIsOneFramePerFrame) {
   EXPECT_THAT(motion.standing, Each(false));
   // The least over five separations lies below the mean, and one piece of wall has more contrast than
   // another; over 20 s that evens out to a few percent.
-  EXPECT_NEAR(mean(motion.displacement, 1, 600), 1, 0.1);
+  EXPECT_NEAR(30 * mean(motion.displacement, 1, 600), 1, 0.1);
 }
 
 TEST(VisualMotion, FollowsTheSpeed) {
@@ -171,8 +202,8 @@ TEST(VisualMotion, DoesNotMoveWhileTheWalkerStands) {
     EXPECT_GE(i, 201U - 16);
     EXPECT_LE(i, 350U + 16);
   }
-  EXPECT_GT(mean(motion.displacement, 20, 180), 0.5);
-  EXPECT_GT(mean(motion.displacement, 380, 540), 0.5);
+  EXPECT_GT(30 * mean(motion.displacement, 20, 180), 0.5);
+  EXPECT_GT(30 * mean(motion.displacement, 380, 540), 0.5);
 }
 
 TEST(VisualMotion, OfTwoFramesIsOneStep) {
@@ -180,7 +211,37 @@ TEST(VisualMotion, OfTwoFramesIsOneStep) {
   const auto motion = vo::visual_motion(wall.walk(std::vector<double>{0, 300}));
   ASSERT_THAT(motion.displacement, SizeIs(2));
   EXPECT_EQ(motion.displacement[0], 0);
-  EXPECT_NEAR(motion.displacement[1], 1, 1e-5);  // the model's table
+  EXPECT_NEAR(motion.displacement[1], 1.0 / 30, 1e-6);  // the model's table
+}
+
+TEST(VisualMotion, LearnsFromTheWalkBetweenStands) {
+  // However long the stand, a second of walking is a second.
+  const Wall wall(300, 3);
+  for (const std::size_t stand : {150U, 3000U}) {
+    std::vector<double> speed_px(200, 0.5);
+    for (std::size_t i = 0; i < stand; ++i) speed_px.push_back(i % 2 == 0 ? 0.2 : -0.2);
+    speed_px.insert(speed_px.end(), 200, 0.5);
+    const auto motion = vo::visual_motion(wall.walk(places(0, speed_px)));
+    // The walker has not left the view for 16 frames on either side of the stand.
+    const double walked =
+        mean(motion.displacement, 1, 201) + mean(motion.displacement, 201 + stand, 401 + stand);
+    EXPECT_NEAR(30 * walked / 2, 1, 0.1) << stand;
+    EXPECT_EQ(mean(motion.displacement, 201, 201 + stand), 0) << stand;
+  }
+}
+
+TEST(VisualMotion, WalksOnOverAShortJumpOfTheClockAndStopsAtALongOne) {
+  const Wall wall(1000, 1);
+  for (const double jump_s : {0.5, 2.0, 5.0, 3600.0}) {
+    vo::Walk walk = wall.walk(places(0, std::vector<double>(599, 0.5)));
+    for (std::size_t i = 300; i < walk.frames(); ++i) walk.time_s[i] += jump_s;
+    walk.gaps = vo::clock_gaps(walk.time_s);
+    ASSERT_EQ(walk.gaps.size(), 1U);
+    const auto motion = vo::visual_motion(walk);
+    EXPECT_FALSE(motion.usable[300]);
+    const double pace = 30 * (mean(motion.displacement, 270, 300) + mean(motion.displacement, 301, 331)) / 2;
+    EXPECT_NEAR(motion.displacement[300], jump_s < 3 ? pace * walk.gaps[0].length_s : 0, 1e-9) << jump_s;
+  }
 }
 
 TEST(VisualMotion, RefusesAWalkWithoutMotion) {
@@ -220,6 +281,7 @@ vo::Walk tracked_walk(double orientation_deg, double shift_px, double rate_hz = 
       motion.orientation_deg = orientation_deg * swing;
       motion.shift_px = shift_px * swing;
       motion.turn = vo::Turn{};
+      motion.picture = vo::PictureMotion{.growth = 0.25 / rate_hz};
     }
     walk.tracked.push_back(motion);
   }
@@ -245,7 +307,6 @@ TEST(PedestrianMotion, CountsStepsAndWalksThem) {
 TEST(PedestrianMotion, ReadsStepsFromTheShiftWhereTheHorizonIsSteady) {
   const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0, 3));
   EXPECT_EQ(motion.step_signal, vo::StepSignal::kShift);
-  EXPECT_EQ(vo::values_of(motion.step_signal, motion.signal), motion.signal.filtered_shift_px);
   EXPECT_NEAR(static_cast<double>(motion.detection.steps.size()), 20, 1);  // taking drift out bends the ends
 }
 
@@ -259,7 +320,6 @@ TEST(PedestrianMotion, ReadsStepsFromTheBounceWhereThereIsOne) {
   }
   const vo::PedestrianMotion motion = vo::pedestrian_motion(walk);
   EXPECT_EQ(motion.step_signal, vo::StepSignal::kBounce);
-  EXPECT_EQ(vo::values_of(motion.step_signal, motion.signal), motion.signal.bounce_px);
   ASSERT_EQ(motion.detection.steps.size(), 19U);  // the recording ends a frame before another
   EXPECT_EQ(motion.detection.steps[0].leg, vo::Leg::kLeft);
   EXPECT_NEAR(motion.detection.steps[0].time_s, 0.5, 0.05);
@@ -272,16 +332,110 @@ TEST(PedestrianMotion, ReadsStepsFromTheBounceWhereThereIsOne) {
   EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kShift);
   // A threshold in degrees is one of the orientation.
   options = {};
-  options.steps.detection.delta_min_deg = 0.1;
+  options.steps.detection.delta_min = 0.1;
   EXPECT_EQ(vo::pedestrian_motion(walk, options).step_signal, vo::StepSignal::kOrientation);
 }
 
-TEST(PedestrianMotion, StandingHasNoSteps) {
+TEST(PedestrianMotion, OfAStillSignalHasNoSteps) {
   const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0, 0));
   EXPECT_EQ(motion.step_signal, vo::StepSignal::kOrientation);
   EXPECT_TRUE(motion.detection.steps.empty());
   EXPECT_THAT(motion.displacement_m, testing::Each(0));
   EXPECT_EQ(motion.trajectory.at_frame.size(), 250U);
+}
+
+/// The walk of `tracked_walk` with a bounce, as a camera sees it whose frames come at these times.
+vo::Walk bouncing_walk(const std::vector<double>& time_s, std::size_t window = 3) {
+  vo::Walk walk;
+  walk.source = "walk.mp4";
+  walk.time_s = time_s;
+  walk.gaps = vo::clock_gaps(time_s);
+  // Where the picture is, by the walker's own clock: the change over a window is the difference at its ends.
+  const auto down_px = [](double s) { return -4 * std::sin(4 * std::numbers::pi * s); };
+  const auto roll_deg = [](double s) { return -2 * std::cos(2 * std::numbers::pi * s); };
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    vo::FrameMotion motion{.matches = 200, .window = static_cast<int>(std::min(i, window))};
+    if (i > 0) {
+      const double frames = motion.window, from_s = time_s[i - std::min(i, window)];
+      const double seconds = time_s[i] - from_s;
+      motion.orientation_deg = (roll_deg(time_s[i]) - roll_deg(from_s)) / frames;
+      motion.shift_px = 0.0;
+      motion.turn = vo::Turn{.turn_rad = 0.05 * seconds / frames};
+      motion.picture = vo::PictureMotion{.down_px = (down_px(time_s[i]) - down_px(from_s)) / frames,
+                                         .growth = 0.25 * seconds / frames};
+    }
+    walk.tracked.push_back(motion);
+  }
+  return walk;
+}
+
+std::vector<double> clock(double seconds, double first_hz, double second_hz) {
+  std::vector<double> time_s{0};
+  while (time_s.back() < seconds)
+    time_s.push_back(time_s.back() +
+                     1 / (static_cast<int>(time_s.back() + 1e-9) % 2 == 0 ? first_hz : second_hz));
+  return time_s;
+}
+
+TEST(PedestrianMotion, FindsTheSameStepsAtAnyFrameRateAndWhereItChanges) {
+  const std::vector<std::pair<double, double>> rates{{25, 25}, {12.5, 12.5}, {24, 24}, {30, 30}, {50, 50},
+                                                     {60, 60}, {25, 12.5},   {60, 24}, {30, 10}};
+  for (const auto& [first_hz, second_hz] : rates) {
+    SCOPED_TRACE(testing::Message() << first_hz << ' ' << second_hz);
+    const vo::Walk walk = bouncing_walk(clock(20, first_hz, second_hz));
+    const vo::PedestrianMotion motion = vo::pedestrian_motion(walk);
+    // Every half second, but for the one at the end.
+    EXPECT_NEAR(static_cast<double>(motion.detection.steps.size()), 40, 1);
+    for (const vo::Step& step : motion.detection.steps) {
+      EXPECT_EQ(step.time_s, walk.time_s[step.frame]);
+      // The change over three frames lags by half of them, and a step is found to a frame.
+      const double off_s = std::remainder(step.time_s, 0.5);
+      EXPECT_LE(std::abs(off_s - 1.5 / first_hz), 1.5 / std::min(first_hz, second_hz));
+    }
+    EXPECT_EQ(motion.activity[10].activity, vo::Activity::kWalking);
+    EXPECT_NEAR(motion.activity[10].step_hz, 2, 0.1);
+    EXPECT_NEAR(motion.signal.heading_rad.back(), 1, 0.02);  // 0.05 a second
+  }
+}
+
+TEST(PedestrianMotion, WalksOnOverAShortJumpOfTheClock) {
+  for (const double jump_s : {0.5, 1.0, 2.0, 2.9}) {
+    std::vector<double> time_s = clock(30, 25, 25);
+    for (std::size_t i = 375; i < time_s.size(); ++i) time_s[i] += jump_s;
+    const vo::Walk walk = bouncing_walk(time_s);
+    const vo::PedestrianMotion motion = vo::pedestrian_motion(walk);
+    EXPECT_NEAR(static_cast<double>(motion.detection.steps.size()), 2 * (30 + jump_s), 1) << jump_s;
+    for (const vo::Step& step : motion.detection.steps) {
+      if (step.time_s <= time_s[374] || step.time_s >= time_s[375]) continue;
+      EXPECT_EQ(step.frame, 375U);  // nobody saw them
+      EXPECT_TRUE(step.bridged);
+    }
+    double walked_m = 0;
+    for (const double moved_m : motion.displacement_m) walked_m += moved_m;
+    EXPECT_NEAR(walked_m, 0.7 * 2 * (30 + jump_s), 0.7) << jump_s;
+  }
+}
+
+TEST(PedestrianMotion, KnowsNothingOfALongJumpOfTheClock) {
+  for (const double jump_s : {3.5, 10.0, 3600.0}) {
+    std::vector<double> time_s = clock(30, 25, 25);
+    for (std::size_t i = 375; i < time_s.size(); ++i) time_s[i] += jump_s;
+    const vo::Walk walk = bouncing_walk(time_s);
+    const vo::PedestrianMotion motion = vo::pedestrian_motion(walk);
+    EXPECT_NEAR(static_cast<double>(motion.detection.steps.size()), 60, 1) << jump_s;
+    for (const vo::Step& step : motion.detection.steps) EXPECT_EQ(step.time_s, walk.time_s[step.frame]);
+    EXPECT_LE(motion.displacement_m[375], 0.7) << jump_s;  // of the step that ends after it
+    EXPECT_EQ(motion.activity[static_cast<std::size_t>(15 + jump_s / 2)].activity, vo::Activity::kUnknown);
+  }
+}
+
+TEST(PedestrianMotion, WithoutStepsStands) {
+  const vo::PedestrianMotion motion =
+      vo::without_steps(vo::pedestrian_motion(bouncing_walk(clock(20, 25, 25))));
+  EXPECT_THAT(motion.detection.steps, IsEmpty());
+  EXPECT_THAT(motion.displacement_m, Each(0));
+  EXPECT_EQ(motion.trajectory.at_frame.back().pose.y_m, 0);
+  EXPECT_EQ(motion.activity[10].activity, vo::Activity::kRiding);  // as the picture grows
 }
 
 TEST(PedestrianMotion, RefusesWalksItCannotReadStepsFrom) {

@@ -33,8 +33,8 @@ struct DeadReckoning {
 /// shares count. The sum is that of the lengths, but for these.
 ///
 /// `lengths_m`: one per step; `time_s`: one per frame, increasing. Throws `std::invalid_argument` for another
-/// number of lengths, shares outside 0 to 1, or steps whose frames do not increase from 1 on or are not among
-/// the frames. O(n).
+/// number of lengths, shares outside 0 to 1, or steps whose frames decrease, are not from 1 on, or not among
+/// the frames: steps made in a gap of the clock all lie at the frame after it. O(n).
 std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<const double> lengths_m,
                                         std::span<const double> time_s, const PartialSteps& partial = {},
                                         const DeadReckoningOptions& options = {});

@@ -19,6 +19,11 @@ struct FootfallOptions {
   PeriodicityOptions periodicity;  ///< what is gait, in steps; a bounce is a step, not a stride
 };
 
+/// What is like gait in the bounce, window by window: `step_s` is half of a bounce, that is of a step. O(n)
+/// and what `stride_periodicity` takes.
+std::vector<Periodicity> bounce_windows(std::span<const double> bounce_px, std::span<const double> time_s,
+                                        const PeriodicityOptions& options = {});
+
 /// Finds steps in the bounce of the picture, which moves up fastest about when a foot lands (not in PVO).
 ///
 /// The roll that PVO reads is weak in the first step after a stand, and swings back where the walker halts
@@ -31,7 +36,7 @@ struct FootfallOptions {
 /// `bounce_px`: shift of the picture, down positive, low-passed and without drift; `growth`: of the picture,
 /// low-passed; one of each per frame, unreliable ones bridged. `legs`: steps by the orientation, by which
 /// left is told from right; without any, the first step is a left one. `time_s`, `reliable` and the result as
-/// of `detect_steps`, in pixels for degrees; no step is seen at an unreliable frame. No steps where nothing
+/// of `detect_steps`, in pixels; no step is seen at an unreliable frame. No steps where nothing
 /// is like gait. Throws `std::invalid_argument` for other sizes or depths out of range. O(n) and what
 /// `stride_periodicity` takes.
 StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<const double> growth,

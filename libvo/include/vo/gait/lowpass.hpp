@@ -14,10 +14,6 @@ struct LowpassOptions {
   double cutoff_hz = 4;  ///< where one pass halves the power [PVO 5.3 (2)]
 };
 
-/// The frames per second of a recording: one over the median time between frames. `time_s` increases; throws
-/// `std::invalid_argument` for fewer than two. O(n).
-double frame_rate_hz(std::span<const double> time_s);
-
 /// Values whose flag is false, replaced by the straight line between the reliable ones about them; before the
 /// first and after the last, by that value; by 0 if none is reliable. One flag per value, else
 /// `std::invalid_argument`. A filter would smear what is no measurement over its neighbours. O(n).

@@ -15,16 +15,17 @@ struct PeriodicityOptions {
   double max_step_hz = 4;      ///< fastest: joggers have 3, sprinters little more than 4
   double min_strength = 0.55;  ///< of windows of gait; -1 lets all be gait
   double min_gait_s = 1;       ///< seconds for which strength lasts in gait
+  double min_amplitude = 0;    ///< of gait, in the signal's unit: what is less is noise, however even
 };
 
-/// How much like gait a stretch of the orientation signal is.
+/// How much like gait a stretch of a signal is.
 struct Periodicity {
-  std::size_t frame = 0;     ///< middle of the window
-  std::size_t reach = 0;     ///< frames it has to either side
-  double strength = 0;       ///< -1 to 1; 1 where each stride is as the last, and its halves are opposites
-  double step_s = 0;         ///< half a stride; 0 if nothing could be compared
-  double amplitude_deg = 0;  ///< of a sinusoid with the window's power, wild values cut off
-  bool gait = false;         ///< strong enough, and for long enough
+  std::size_t frame = 0;  ///< middle of the window
+  std::size_t reach = 0;  ///< frames it has to either side
+  double strength = 0;    ///< -1 to 1; 1 where each stride is as the last, and its halves are opposites
+  double step_s = 0;      ///< half a stride; 0 if nothing could be compared
+  double amplitude = 0;  ///< in the signal's unit, of a sinusoid with the window's power, wild values cut off
+  bool gait = false;     ///< strong and large enough, and for long enough
 };
 
 /// Finds the stride in a low-passed orientation signal, window by window.
@@ -41,25 +42,25 @@ struct Periodicity {
 /// With the defaults, white noise through the low-pass of 4 Hz at 25 frames/s is taken for gait some 0.2
 /// times an hour, noise that wanders (a random walk with a memory of 0.8 s) some 4 times.
 ///
-/// `signal_deg`: about 0, one per frame; `rate_hz`: frames per second. Windows at the ends are moved inside;
+/// `signal`: about 0, one per frame; `rate_hz`: frames per second. Windows at the ends are moved inside;
 /// a signal shorter than a window is one window, in which strides up to half its length are looked for. Empty
 /// for an empty signal. Throws `std::invalid_argument` for a rate or an option that is not above 0, or
 /// min_step_hz >= max_step_hz. O(n * window * lags / hop).
-std::vector<Periodicity> stride_periodicity(std::span<const double> signal_deg, double rate_hz,
+std::vector<Periodicity> stride_periodicity(std::span<const double> signal, double rate_hz,
                                             const PeriodicityOptions& options = {});
 
 /// The amplitude of an average step: the median of the windows of gait, each weighted by its power, so that a
 /// few chance hits in a long stand do not outvote a short walk. None if there is no gait. O(n log n).
-std::optional<double> gait_amplitude_deg(std::span<const Periodicity> windows);
+std::optional<double> gait_amplitude(std::span<const Periodicity> windows);
 
 /// At each frame, the amplitude of an average step about it: the median of the windows of gait that cover the
 /// frame; 0 where none does. Windows as from `stride_periodicity`. O(frames * windows that cover a frame).
-std::vector<double> local_gait_amplitude_deg(std::span<const Periodicity> windows, std::size_t frames);
+std::vector<double> local_gait_amplitude(std::span<const Periodicity> windows, std::size_t frames);
 
 /// The window whose middle is nearest to a frame. Throws `std::invalid_argument` if there is none. O(1).
 const Periodicity& nearest_window(std::span<const Periodicity> windows, std::size_t frame);
 
 /// The amplitude of a sinusoid with the power that the signal has within `reach` frames of a frame.
-double sinusoid_amplitude_deg(std::span<const double> signal_deg, std::size_t frame, std::size_t reach);
+double sinusoid_amplitude(std::span<const double> signal, std::size_t frame, std::size_t reach);
 
 }  // namespace vo

@@ -12,16 +12,16 @@ namespace vo {
 enum class Leg { kLeft, kRight };
 
 struct Step {
-  std::size_t frame = 0;
-  double time_s = 0;
+  std::size_t frame = 0;  ///< of a step in a gap of the clock: the first after it
+  double time_s = 0;      ///< of the frame; in a gap, when it was made
   Leg leg = Leg::kLeft;
-  double value_deg = 0;  ///< of the signal at the frame
+  double value = 0;      ///< of the signal at the frame, in its unit
   bool bridged = false;  ///< not seen, but between steps whose cadence leaves room for it
 };
 
 /// Settings of `detect_steps`.
 struct StepDetectionOptions {
-  std::optional<double> delta_min_deg;  ///< static threshold, degrees; none: learned from the walk
+  std::optional<double> delta_min;  ///< static threshold, in the signal's unit; none: learned from the walk
   double delta_min_ratio = 0.25;  ///< learned delta_min, as a share of an average step's value [PVO 5.3 (3)]
   double delta_dyn_ratio = 0.25;  ///< dynamic threshold, of the median difference of a pair [PVO 5.3 (3)]
   std::size_t pairs = 5;  ///< left and right steps in succession, of which the median is taken [PVO 5.3 (3)]
@@ -38,14 +38,14 @@ struct PartialSteps {
   double after = 0;  ///< share made of one more, after the last
 };
 
-/// The steps of a walk and what they were found by.
+/// The steps of a walk and what they were found by; values and thresholds in the unit of the signal.
 struct StepDetection {
-  std::vector<Step> steps;              ///< in order of time, bridged ones among them
-  std::size_t bridged = 0;              ///< how many of them are
-  PartialSteps partial;                 ///< where the way tells it (`complete_steps`)
-  std::optional<double> delta_min_deg;  ///< as given or learned; none if nothing in the walk is like gait
-  double gait_share = 0;                ///< of the frames, those about which the signal is like gait
-  std::vector<double> delta_dyn_deg;    ///< at each frame, degrees; with delta_min what PVO's Fig. 3 shows
+  std::vector<Step> steps;          ///< in order of time, bridged ones among them
+  std::size_t bridged = 0;          ///< how many of them are
+  PartialSteps partial;             ///< where the way tells it (`complete_steps`)
+  std::optional<double> delta_min;  ///< as given or learned; none if nothing in the walk is like gait
+  double gait_share = 0;            ///< of the frames, those about which the signal is like gait
+  std::vector<double> delta_dyn;    ///< at each frame; with delta_min what PVO's Fig. 3 shows
 };
 
 /// Steps that the way in the recording amounts to: all of them, of the first and of one after the last the
@@ -60,7 +60,7 @@ double steps_made(const StepDetection& detection);
 ///
 /// What PVO leaves open, or does otherwise:
 /// - delta_min is set by hand for each person there. Not given, it is a quarter of the amplitude of the
-///   stretches that are like gait (`gait_amplitude_deg`); where there are none, there are no steps.
+///   stretches that are like gait (`gait_amplitude`); where there are none, there are no steps.
 /// - A step lies in a stretch that is like gait (`stride_periodicity`), so that neither noise above the
 ///   thresholds nor a blank wall (Fig. 6) breeds steps; and the stride about it is not far smaller than those
 ///   of the gait around it, as it would be in a stand beside it.
@@ -76,14 +76,14 @@ double steps_made(const StepDetection& detection);
 ///   between left and right.
 ///
 /// A camera that stabilises its picture leaves no gait in the orientation, so that delta_min is none. The
-/// median x shift `without_drift`, in pixels for degrees, may be given instead then; which leg is which is
-/// not known from it, and steps are counted less surely.
+/// median x shift `without_drift` may be given instead then; which leg is which is not known from it, and
+/// steps are counted less surely.
 ///
-/// `signal_deg`: one value per frame, low-passed, about 0, unreliable frames bridged before the filter;
+/// `signal`: one value per frame, low-passed, about 0, unreliable frames bridged before the filter;
 /// `time_s`: one per frame, increasing; `reliable`: one per frame, false where too few matches were found. No
 /// step is found at an unreliable frame. Throws `std::invalid_argument` for other sizes or options out of
 /// range. Fewer than three frames have no steps. O(n) and what `stride_periodicity` takes.
-StepDetection detect_steps(std::span<const double> signal_deg, std::span<const double> time_s,
+StepDetection detect_steps(std::span<const double> signal, std::span<const double> time_s,
                            const std::vector<bool>& reliable, const StepDetectionOptions& options = {});
 
 }  // namespace vo

@@ -29,6 +29,10 @@ struct StepLengthOptions {
 /// Throws `std::invalid_argument` unless both are above 0.
 double calibrated_step_length_m(double distance_m, double steps);
 
+/// Steps per second about step i: over the two strides about it, as far as no pause parts them from it, as
+/// left and right intervals differ; none if it stands alone. O(1).
+std::optional<double> local_cadence_hz(std::span<const Step> steps, std::size_t i, double pause_s);
+
 /// The length of each step, metres.
 ///
 /// PVO measures a person's step once and takes it for all. Walking faster is half quicker and half longer

@@ -5,10 +5,9 @@
 #include "vo/gait/step_detection.hpp"
 #include "vo/gait/step_fusion.hpp"
 
-#include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
+#include <string_view>
 
 namespace vo {
 
@@ -30,23 +29,38 @@ struct StepReadingOptions {
   StepFusionOptions fusion;
 };
 
+/// One way to read the steps of a walk. All are given the same and may be put in place of each other.
+struct StepReader {
+  StepSignal signal;           ///< that it reads
+  std::string_view name;       ///< "orientation", "bounce", "x shift"
+  Signal GaitSignal::*values;  ///< that signal
+  StepDetection (*read)(const GaitSignal& signal, const StepReadingOptions& options);
+};
+
+/// The readers there are, one for each signal, in the order of `StepSignal`.
+///
+/// - The orientation's is PVO's (`detect_steps`), with steps from the shift where points are few
+///   (`fill_steps`), unless `options.signal` asks for the orientation by name.
+/// - The bounce's is `detect_footfalls`, its legs those of the orientation.
+/// - The shift's is `detect_steps`, completed by the way (`complete_steps`); where most of its steps were not
+///   seen but filled in, there are none.
+///
+/// Of all, only the steps of a walker count: the camera gets on (`gets_on`), bounces as one does
+/// (`bounces_as_walker`), swings by no less than noise can (`least_gait`), and the cadence is one of people
+/// (`walkers_steps`).
+std::span<const StepReader> step_readers();
+
+/// The one that reads a signal.
+const StepReader& reader_of(StepSignal signal);
+
 /// The steps of a walk and what shows them.
 struct StepReading {
   StepSignal signal = StepSignal::kOrientation;  ///< which the steps were read from
-  StepSignal stride = StepSignal::kOrientation;  ///< which shows the stride: orientation or shift
-  StepDetection detection;                       ///< in the signal's unit: degrees, or pixels of shift
+  StepDetection detection;                       ///< in the signal's unit
 };
 
-/// Reads the steps of a walk (PVO 4.4) from the signal asked for, or the one that shows them best.
-///
-/// By the bounce, they are those of `detect_footfalls`; by the orientation, as in PVO, with those from the
-/// shift where points are few (`fill_steps`), unless it was asked for; by the shift, completed by the way
-/// (`complete_steps`). `matches`, `time_s`: one per frame of the signal. Throws as these do. O(n) and what
-/// `stride_periodicity` takes.
-StepReading read_steps(const GaitSignal& signal, std::span<const std::size_t> matches,
-                       std::span<const double> time_s, const StepReadingOptions& options = {});
-
-/// The low-passed values of one of the signals, one for each frame.
-const std::vector<double>& values_of(StepSignal which, const GaitSignal& signal);
+/// Reads the steps of a walk (PVO 4.4) by the reader of the signal asked for, or the one that shows them
+/// best. `signal`: at even times. O(n) and what `stride_periodicity` takes.
+StepReading read_steps(const GaitSignal& signal, const StepReadingOptions& options = {});
 
 }  // namespace vo

@@ -2,24 +2,38 @@
 
 #include "vo/image/image_stack.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace vo {
 
-/// Image alignment errors of a walk (SSS 3.1): how unlike frames of the walk are to those s frames on.
-struct AlignmentErrors {
-  /// `by_separation[s][i]` is the mean absolute difference of frames i and i + s, in standard deviations of a
-  /// patch, for s = 0 .. max separation and every i for which frame i + s exists.
-  std::vector<std::vector<float>> by_separation;
+/// A frame compared with a later one.
+struct Comparison {
+  std::uint32_t frames = 0;  ///< how many frames later that is; 0 if there was none to compare with
+  float seconds = 0;         ///< how much later
+  float error = 0;           ///< mean absolute difference, in standard deviations of a patch
 
-  [[nodiscard]] int max_separation() const { return static_cast<int>(by_separation.size()) - 1; }
-  [[nodiscard]] std::size_t frames() const { return by_separation.empty() ? 0 : by_separation[0].size(); }
+  [[nodiscard]] bool made() const { return frames > 0; }
 };
+
+/// Image alignment errors of a walk (SSS 3.1): how unlike frames of the walk are to those some time later.
+struct AlignmentErrors {
+  /// `by_span[k][i]` compares frame i with the frame nearest to k + 1 spans after it, unless that is more
+  /// than half a span off. One value for each frame at each of the spans.
+  std::vector<std::vector<Comparison>> by_span;
+
+  [[nodiscard]] std::size_t spans() const { return by_span.size(); }
+  [[nodiscard]] std::size_t frames() const { return by_span.empty() ? 0 : by_span[0].size(); }
+};
+
+/// SSS 3.1 compares frames 0..10 apart, at 25 to 30 frames/s: the time between two of them.
+inline constexpr double kAlignmentSpan_s = 0.04;
 
 /// Settings of `alignment_errors` and `high_error_windows`.
 struct AlignmentErrorOptions {
-  int max_separation = 10;     ///< frames (SSS 3.1: 0..10 at 25-30 frames/s)
+  std::size_t spans = 10;      ///< times between frames that are compared: 0.04 s to 0.4 s
   double smoothing_s = 5;      ///< seconds, sliding window over the per-frame error (SSS Fig. 10)
   double high_error_mads = 3;  ///< a window this many median absolute deviations above the median is left out
 };
@@ -28,22 +42,33 @@ struct AlignmentErrorOptions {
 /// integer sums. Throws `std::invalid_argument` unless they are of one size and not empty.
 double alignment_error(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
-/// SSS Eq. 1 before its average. `normalised`: bytes of `patch_normalise`, in order of time. Exact integer
-/// sums. Throws `std::invalid_argument` if max_separation < 1. O(frames * separations * pixels), in parallel
-/// over frames.
-AlignmentErrors alignment_errors(const ImageStack& normalised, const AlignmentErrorOptions& options = {});
+/// SSS Eq. 1 before its average, over spans of time where SSS has numbers of frames: a walk has the same
+/// errors at any frame rate, and where its frame rate changes. A span is `kAlignmentSpan_s`, or half the
+/// median time between frames of a recording so slow that this is more.
+///
+/// `normalised`: bytes of `patch_normalise`, in order of time; `time_s`: of each, strictly increasing. Exact
+/// integer sums. Throws `std::invalid_argument` for no spans or another number of times. O(frames * spans *
+/// pixels), in parallel over frames.
+AlignmentErrors alignment_errors(const ImageStack& normalised, std::span<const double> time_s,
+                                 const AlignmentErrorOptions& options = {});
+
+/// The errors averaged at each span (SSS Eq. 1, Fig. 2), over the frames that count.
+struct MeanErrors {
+  std::vector<double> seconds;  ///< 0, then the mean time between the frames compared, increasing
+  std::vector<double> error;    ///< 0, then the mean error
+};
+
+/// Starts with 0 at 0 s. `excluded`: one flag per frame, or empty for none. Spans without a comparison left
+/// are not there.
+MeanErrors mean_errors(const AlignmentErrors& errors, const std::vector<bool>& excluded = {});
 
 /// The frames in windows of high error: fairly large turns, abrupt changes of scene, speedy camera motion
-/// (SSS 6, Fig. 10). The error of a frame is averaged over all separations, smoothed over time, and compared
-/// with the walk's median + high_error_mads * MAD. `time_s`: one per frame, increasing. Returns one flag per
-/// frame.
+/// (SSS 6, Fig. 10). The error of a frame, as a multiple of what is usual at the spans it was compared at, is
+/// smoothed over time and compared with the walk's median + high_error_mads * MAD. Frames `excluded` (one
+/// flag per frame, or none) count for nothing and are none of them. `time_s`: one per frame, increasing.
+/// Returns one flag per frame.
 std::vector<bool> high_error_windows(const AlignmentErrors& errors, std::span<const double> time_s,
+                                     const std::vector<bool>& excluded = {},
                                      const AlignmentErrorOptions& options = {});
-
-/// Mean error at each separation over the frames not `excluded` (SSS Eq. 1, Fig. 2), starting with 0 at
-/// separation 0. `excluded`: one flag per frame, or empty for none. A separation without a frame left repeats
-/// the one before.
-std::vector<double> mean_error_by_separation(const AlignmentErrors& errors,
-                                             const std::vector<bool>& excluded = {});
 
 }  // namespace vo

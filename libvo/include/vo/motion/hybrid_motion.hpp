@@ -46,7 +46,7 @@ struct HybridMotionOptions {
 /// One displacement for each frame.
 struct HybridMotion {
   std::vector<FrameDisplacement> frames;
-  bool metric = false;  ///< metres; otherwise some unit of the track's, or frames at the walk's mean speed
+  bool metric = false;  ///< metres; otherwise some unit of the track's, or seconds at the walk's mean speed
 };
 
 /// One continuous displacement per frame from sources that each fail at times (SSS 3.5, 5.2, Fig. 9).
@@ -55,8 +55,9 @@ struct HybridMotion {
 /// 2. Where it is lost, steps or alignment error stand in, whichever was closer to it while it worked (SSS
 ///    has alignment error alone), the error by what it meant for displacement in the `window_s` on either
 ///    side. Where the view has long not changed, the walker stands.
-/// 3. Where neither says anything (a black picture, a blank wall), the speed goes in a straight line from
-///    what it was over a second before to what it is after.
+/// 3. Where neither says anything (a black picture, a blank wall, a jump of the clock), the speed goes in a
+///    straight line from what it was over a second before to what it is after. Over a jump of more than
+///    `kLongestFilledGap_s` it is 0.
 ///
 /// Without a track it is steps; without them, alignment error over frame separation (SSS 3.2), as
 /// `estimate_motion` has it. sigma: for steps and alignment error, their root mean square difference to the

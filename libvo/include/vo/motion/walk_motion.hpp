@@ -33,14 +33,15 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// The displacement of every frame by one source, or by all of them (`hybrid_motion`).
 ///
 /// `kHybrid` takes what the walk was read with, and does without steps where the frame rate is too low to see
-/// any, where they were found during less than half of the time that the camera is seen to move, or would
-/// have it nearer to the ground, or higher, than one that is carried (`height_by_steps_m`). `kFile` is the
-/// same without steps, with the track of a file. `kVisualOdometry` is the track as it is: nothing where it is
-/// lost, each segment in a unit of its own.
+/// any, or where they were found during less than half of the time that the camera is seen to move. Steps
+/// that would have the camera nearer to the ground, or higher, than one that is carried (`height_by_steps_m`)
+/// are none: there, `pedestrian` has no steps. A camera that never leaves its first view, and sees no steps,
+/// stands: its displacements are 0. `kFile` is the same without steps, with the track of a file.
+/// `kVisualOdometry` is the track as it is: nothing where it is lost, each segment in a unit of its own.
 ///
 /// Throws `std::invalid_argument` for `kNone`, or a walk that was not read with what the source needs;
-/// `vo::Error` naming a walk that shows no motion to learn from. A walk without steps has, by `kSteps`,
-/// displacements of 0.
+/// `vo::Error` naming a walk that shows no motion to learn from, for `kSad`. A walk without steps has, by
+/// `kSteps`, displacements of 0 from no source.
 WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options = {});
 
 /// The motion of a walker whose steps are wanted: by `source`, `kHybrid` or `kSteps`; by steps alone, with a

@@ -32,22 +32,55 @@ std::vector<std::size_t> nearest_frames(const std::vector<double>& displacement,
   return keyframes;
 }
 
+std::vector<double> times(std::size_t frames, double rate_hz = 25) {
+  std::vector<double> time_s;
+  for (std::size_t i = 0; i < frames; ++i) time_s.push_back(static_cast<double>(i) / rate_hz);
+  return time_s;
+}
+
 TEST(SamplingUnit, WorkedExample) {
   // Without the first: 1, 3. Mean 2, population deviation 1: 3 (2 + 2 * 1).
-  EXPECT_DOUBLE_EQ(place::sampling_unit(std::vector<double>{99, 1, 3}, 3), 12);
+  EXPECT_NEAR(place::sampling_unit(std::vector<double>{99, 1, 3}, times(3), 3), 12, 1e-12);
 }
 
 TEST(SamplingUnit, OfSteadyAndOfNoMotion) {
-  EXPECT_DOUBLE_EQ(place::sampling_unit(std::vector<double>(11, 0.5), 6), 3);
-  EXPECT_EQ(place::sampling_unit(std::vector<double>(11, 0), 6), 0);
-  EXPECT_DOUBLE_EQ(place::sampling_unit(std::vector<double>{0, 2}, 1), 2);
+  EXPECT_NEAR(place::sampling_unit(std::vector<double>(11, 0.5), times(11), 6), 3, 1e-6);
+  EXPECT_EQ(place::sampling_unit(std::vector<double>(11, 0), times(11), 6), 0);
+  EXPECT_DOUBLE_EQ(place::sampling_unit(std::vector<double>{0, 2}, times(2), 1), 2);
+}
+
+TEST(SamplingUnit, IsTheSameHoweverLongTheWalkerStands) {
+  std::vector<double> walk{0};
+  for (int i = 0; i < 100; ++i) walk.push_back(i % 2 == 0 ? 1 : 2);
+  const double unit = place::sampling_unit(walk, times(walk.size()), 6);
+  walk.insert(walk.begin() + 30, 500, 0.0);
+  EXPECT_NEAR(place::sampling_unit(walk, times(walk.size()), 6), unit, 1e-9);
+}
+
+TEST(SamplingUnit, IsTheSameAtAnyFrameRateAndWhereItChanges) {
+  // A metre a second and two by turns of a second.
+  const auto unit = [](const std::vector<double>& time_s) {
+    std::vector<double> moved(time_s.size(), 0);
+    for (std::size_t i = 1; i < time_s.size(); ++i)
+      moved[i] = (time_s[i] - time_s[i - 1]) * (static_cast<int>(time_s[i] - 1e-9) % 2 == 0 ? 1 : 2);
+    return place::sampling_unit(moved, time_s, 6);
+  };
+  const double expected = 6 * 0.04 * (1.5 + 2 * 0.5);
+  for (const double rate_hz : {10.0, 25.0, 50.0})
+    EXPECT_NEAR(unit(times(static_cast<std::size_t>(20 * rate_hz) + 1, rate_hz)), expected, 1e-9) << rate_hz;
+  std::vector<double> uneven{0};
+  for (int i = 0; i < 20; ++i)
+    for (int k = 1; k <= (i % 3 == 0 ? 50 : 10); ++k) uneven.push_back(i + k / (i % 3 == 0 ? 50.0 : 10.0));
+  EXPECT_NEAR(unit(uneven), expected, 1e-9);
 }
 
 TEST(SamplingUnit, RefusesTooFewFramesAndNoN) {
-  EXPECT_THROW(place::sampling_unit({}, 3), std::invalid_argument);
-  EXPECT_THROW(place::sampling_unit(std::vector<double>{0}, 3), std::invalid_argument);
-  EXPECT_THROW(place::sampling_unit(std::vector<double>{0, 1}, 0), std::invalid_argument);
-  EXPECT_THROW(place::sampling_unit(std::vector<double>{0, 1}, std::nan("")), std::invalid_argument);
+  EXPECT_THROW(place::sampling_unit({}, {}, 3), std::invalid_argument);
+  EXPECT_THROW(place::sampling_unit(std::vector<double>{0}, times(1), 3), std::invalid_argument);
+  EXPECT_THROW(place::sampling_unit(std::vector<double>{0, 1}, times(3), 3), std::invalid_argument);
+  EXPECT_THROW(place::sampling_unit(std::vector<double>{0, 1}, times(2), 0), std::invalid_argument);
+  EXPECT_THROW(place::sampling_unit(std::vector<double>{0, 1}, times(2), std::nan("")),
+               std::invalid_argument);
 }
 
 TEST(Resample, WorkedExample) {
@@ -105,6 +138,16 @@ TEST(Resample, KeepsKeyframesAUnitApart) {
     EXPECT_NEAR(travelled[keyframes[k]], 1.7 * static_cast<double>(k), 0.15 + 1e-9);
   }
   EXPECT_EQ(keyframes.size(), 1 + static_cast<std::size_t>(travelled.back() / 1.7));
+}
+
+TEST(Resample, BeginsAnewWhereTold) {
+  const std::vector<double> walk(41, 0.25);
+  // Frame 18 lies half a unit after a keyframe.
+  EXPECT_THAT(place::resample(walk, 1, std::vector<std::size_t>{18, 20}),
+              ElementsAre(0, 4, 8, 12, 16, 18, 20, 24, 28, 32, 36, 40));
+  EXPECT_EQ(place::resample(walk, 1, std::vector<std::size_t>{0}), place::resample(walk, 1));
+  EXPECT_THROW(place::resample(walk, 1, std::vector<std::size_t>{41}), std::invalid_argument);
+  EXPECT_THROW(place::resample(walk, 1, std::vector<std::size_t>{20, 18}), std::invalid_argument);
 }
 
 TEST(Resample, OfNoFrameAndOfOne) {

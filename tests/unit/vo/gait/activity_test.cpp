@@ -1,6 +1,4 @@
-#include "support/gait_signals.hpp"
-
-#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -8,87 +6,147 @@
 #include <gtest/gtest.h>
 
 #include <vo/gait/activity.hpp>
-#include <vo/gait/lowpass.hpp>
 
 namespace {
 
-using test_support::GaitSignal;
-using testing::Each;
 using testing::IsEmpty;
 using vo::Activity;
 
-std::vector<Activity> activities(const GaitSignal& signal, const vo::ActivityOptions& options = {}) {
-  const auto low =
-      vo::lowpass_zero_phase(vo::bridge_gaps(signal.deg(), signal.reliable()), GaitSignal::kRate_hz);
-  std::vector<Activity> found;
-  for (const auto& second : vo::detect_activity(low, signal.time_s(), signal.reliable(), options))
-    found.push_back(second.activity);
-  return found;
+/// So many seconds at 25 frames/s in which the picture grows by so much a second.
+struct Frames {
+  explicit Frames(double seconds, double growth_per_s = 0.1) {
+    signal.rate_hz = 25;
+    for (int i = 0; i < seconds * 25; ++i) add(i / 25.0, growth_per_s, true);
+  }
+  void add(double time_s, double growth_per_s, bool reliable) {
+    signal.time_s.push_back(time_s);
+    signal.growth_per_s.push_back(growth_per_s);
+    signal.reliable.push_back(reliable);
+    signal.orientation.values.push_back(0);
+  }
+  void set(double from_s, double to_s, double growth_per_s, bool reliable = true) {
+    for (std::size_t i = 0; i < signal.time_s.size(); ++i) {
+      if (signal.time_s[i] < from_s || signal.time_s[i] >= to_s) continue;
+      signal.growth_per_s[i] = growth_per_s;
+      signal.reliable[i] = reliable;
+    }
+  }
+  vo::GaitSignal signal;
+};
+
+/// Steps at an even cadence, the first done `from_s + 1 / hz`, up to `to_s`.
+void step(std::vector<vo::Step>& steps, double from_s, double to_s, double hz) {
+  for (int k = 1; from_s + k / hz <= to_s + 1e-9; ++k)
+    steps.push_back({.frame = static_cast<std::size_t>((from_s + k / hz) * 25), .time_s = from_s + k / hz});
 }
 
-TEST(DetectActivity, TellsStandingWalkingAndRunning) {
-  // 10 s each: standing, walking at 1.9, running at 2.9 steps a second with a greater amplitude, standing.
-  const GaitSignal signal = GaitSignal()
-                                .stand(10, 0.02, 0.03)
-                                .walk(19, 1.9, 0.5, 0.05)
-                                .walk(29, 2.9, 0.8, 0.05)
-                                .stand(10, 0.02, 0.03);
-  const auto found = activities(signal);
-  ASSERT_EQ(found.size(), 40U);
+std::vector<Activity> activities(const std::vector<vo::ActivitySecond>& seconds) {
+  std::vector<Activity> all;
+  for (const vo::ActivitySecond& second : seconds) all.push_back(second.activity);
+  return all;
+}
+
+TEST(DetectActivity, IsThatOfTheSteps) {
+  // 10 s each: standing, walking at 1.6, running at 2.5 steps a second, standing.
+  Frames frames(40);
+  frames.set(0, 10, 0);
+  frames.set(30, 40, 0);
+  std::vector<vo::Step> steps;
+  step(steps, 10, 20, 1.6);
+  step(steps, 20, 30, 2.5);
+  const auto seconds = vo::detect_activity(frames.signal, steps);
+  ASSERT_EQ(seconds.size(), 40U);
   for (std::size_t i = 0; i < 40; ++i) {
-    // A window of 5 s sees the change up to 2.5 s early or late.
-    if (i % 10 < 1 || (i >= 17 && i <= 22) || i % 10 > 8) continue;
+    EXPECT_EQ(seconds[i].time_s, static_cast<double>(i));
     const Activity expected = i < 10 || i >= 30 ? Activity::kStanding
                               : i < 20          ? Activity::kWalking
                                                 : Activity::kRunning;
-    EXPECT_EQ(found[i], expected) << i;
+    EXPECT_EQ(seconds[i].activity, expected) << i;
+    // Within two strides of the change the cadence is that of both.
+    if (i >= 10 && i < 18) {
+      EXPECT_NEAR(seconds[i].step_hz, 1.6, 1e-9) << i;
+    }
+    if (i >= 22 && i < 30) {
+      EXPECT_NEAR(seconds[i].step_hz, 2.5, 1e-9) << i;
+    }
+    if (i < 10 || i >= 30) {
+      EXPECT_EQ(seconds[i].step_hz, 0) << i;
+    }
   }
 }
 
-TEST(DetectActivity, SaysHowFastAndHowFar) {
-  const GaitSignal walk = GaitSignal().walk(40, 2, 0.5);
-  const auto seconds = vo::detect_activity(walk.deg(), walk.time_s(), walk.reliable());
-  ASSERT_EQ(seconds.size(), 20U);
-  for (std::size_t i = 0; i < 20; ++i) {
-    EXPECT_EQ(seconds[i].time_s, static_cast<double>(i));
-    EXPECT_NEAR(seconds[i].step_hz, 2, 1e-9);  // a stride is 25 frames; rounding
-    // 0.5 sqrt(1.04); over a second and a half that is not whole strides, a few hundredths more or less.
-    EXPECT_NEAR(seconds[i].amplitude_deg, 0.5, 0.06);
+TEST(DetectActivity, CountsWhatWasMadeOfAStepAfterTheLast) {
+  Frames frames(10);
+  std::vector<vo::Step> steps;
+  step(steps, 0, 9, 1.25);  // the last at 8.8 s
+  EXPECT_EQ(vo::detect_activity(frames.signal, steps).back().activity, Activity::kUnknown);
+  EXPECT_EQ(vo::detect_activity(frames.signal, steps, {.after = 0.9}).back().activity, Activity::kWalking);
+}
+
+TEST(DetectActivity, IsRidingWhereTheCameraGetsOnWithoutSteps) {
+  // Twenty seconds walked, then 40 s on a bus.
+  Frames frames(60);
+  std::vector<vo::Step> steps;
+  step(steps, 0, 20, 2);
+  const auto found = activities(vo::detect_activity(frames.signal, steps));
+  for (std::size_t i = 0; i < 60; ++i) {
+    // Nobody knows of the five seconds beside a step.
+    const Activity expected = i < 20 ? Activity::kWalking : i < 25 ? Activity::kUnknown : Activity::kRiding;
+    if (i != 25) {
+      EXPECT_EQ(found[i], expected) << i;
+    }
   }
+  // Backwards, too.
+  EXPECT_EQ(vo::detect_activity(Frames(20, -0.1).signal, {})[7].activity, Activity::kRiding);
+  EXPECT_EQ(vo::detect_activity(Frames(20, 0.005).signal, {})[7].activity, Activity::kStanding);
 }
 
 TEST(DetectActivity, DoesNotKnowWhereThereWasNothingToSee) {
-  const auto found =
-      activities(GaitSignal().walk(20, 2, 0.5, 0.02).blank(10, 0.5, false).walk(20, 2, 0.5, 0.02));
-  ASSERT_EQ(found.size(), 30U);
-  for (std::size_t i = 0; i < 30; ++i) EXPECT_EQ(found[i] == Activity::kUnknown, i >= 10 && i < 20) << i;
+  Frames frames(30, 0);
+  frames.set(10, 20, 0, false);
+  const auto found = activities(vo::detect_activity(frames.signal, {}));
+  for (std::size_t i = 0; i < 30; ++i)
+    EXPECT_EQ(found[i], i >= 10 && i < 20 ? Activity::kUnknown : Activity::kStanding) << i;
 }
 
-TEST(DetectActivity, OfEmptyShortAndConstantSignals) {
-  EXPECT_THAT(vo::detect_activity({}, {}, {}), IsEmpty());
-  const auto one = vo::detect_activity(std::vector<double>{1}, std::vector<double>{5}, {true});
-  ASSERT_EQ(one.size(), 1U);
-  EXPECT_EQ(one[0].activity, Activity::kUnknown);
-  EXPECT_EQ(one[0].time_s, 5);
-  EXPECT_THAT(activities(GaitSignal().stand(20, 0, 0)), Each(Activity::kStanding));
+TEST(DetectActivity, TakesASingleStepForNoGait) {
+  const std::vector<vo::Step> steps{{.frame = 125, .time_s = 5}};
+  for (const auto& second : vo::detect_activity(Frames(10, 0).signal, steps)) {
+    EXPECT_EQ(second.activity, Activity::kStanding);
+    EXPECT_EQ(second.step_hz, 0);
+  }
 }
 
 TEST(DetectActivity, PassesOverSecondsWithoutFrames) {
   // A recording that halts for three seconds.
-  std::vector<double> time_s;
-  for (int i = 0; i < 100; ++i) time_s.push_back(i / 25.0 + (i < 50 ? 0 : 3));
-  const auto seconds =
-      vo::detect_activity(std::vector<double>(100, 0.0), time_s, std::vector<bool>(100, true));
-  ASSERT_EQ(seconds.size(), 7U);
-  for (std::size_t i = 0; i < 7; ++i)
-    EXPECT_EQ(seconds[i].activity == Activity::kUnknown, i >= 2 && i < 5) << i;
+  Frames frames(0);
+  for (int i = 0; i < 100; ++i) frames.add(i / 25.0 + (i < 50 ? 0 : 3), 0, true);
+  const auto found = activities(vo::detect_activity(frames.signal, {}));
+  ASSERT_EQ(found.size(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(found[i] == Activity::kUnknown, i >= 2 && i < 5) << i;
+}
+
+TEST(DetectActivity, SaysHowFarTheCameraLeans) {
+  Frames frames(10);
+  for (std::size_t i = 0; i < 250; ++i)
+    frames.signal.orientation.values[i] = 0.5 * std::sin(2 * 3.14159265 * static_cast<double>(i) / 25);
+  // Over a second and a half, which is not whole waves, a few hundredths more or less.
+  EXPECT_NEAR(vo::detect_activity(frames.signal, {})[5].amplitude_deg, 0.5, 0.06);
+}
+
+TEST(DetectActivity, OfEmptyAndShortWalks) {
+  EXPECT_THAT(vo::detect_activity({}, {}), IsEmpty());
+  Frames one(0);
+  one.add(5, 0, true);
+  const auto seconds = vo::detect_activity(one.signal, {});
+  ASSERT_EQ(seconds.size(), 1U);
+  EXPECT_EQ(seconds[0].activity, Activity::kUnknown);
+  EXPECT_EQ(seconds[0].time_s, 5);
 }
 
 TEST(DetectActivity, RefusesWhatMakesNoSense) {
-  const std::vector<double> signal(10, 0.0), time_s(9, 0.0);
-  EXPECT_THROW(vo::detect_activity(signal, time_s, std::vector<bool>(10)), std::invalid_argument);
-  EXPECT_THROW(vo::detect_activity(time_s, time_s, std::vector<bool>(9), {.run_step_hz = 0}),
-               std::invalid_argument);
+  EXPECT_THROW(vo::detect_activity(Frames(1).signal, {}, {}, {.run_step_hz = 0}), std::invalid_argument);
+  EXPECT_THROW(vo::detect_activity(Frames(1).signal, {}, {}, {.pause_s = 0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ std::vector<vo::Step> steps_at(const std::vector<std::size_t>& frames) {
     steps.push_back({.frame = frame,
                      .time_s = static_cast<double>(frame) / 8,
                      .leg = vo::Leg::kLeft,
-                     .value_deg = 0,
+                     .value = 0,
                      .bridged = false});
   return steps;
 }
@@ -177,13 +177,31 @@ TEST(DeadReckon, OfNoStepsStaysWhereItIs) {
   EXPECT_THAT(vo::dead_reckon({}, {}, {}, {}).at_frame, IsEmpty());
 }
 
+TEST(DeadReckon, WalksStepsOfAGapUpToTheFrameAfterIt) {
+  // Nothing is seen from 0.8 s to 2.8 s, in which there were two steps between those at both ends.
+  std::vector<double> time_s = times(10);
+  for (std::size_t i = 5; i < 10; ++i) time_s[i] += 2;
+  std::vector<vo::Step> steps{{.frame = 4, .time_s = time_s[4]},
+                              {.frame = 5, .time_s = time_s[4] + 0.7, .bridged = true},
+                              {.frame = 5, .time_s = time_s[4] + 1.4, .bridged = true},
+                              {.frame = 5, .time_s = time_s[5]}};
+  const std::vector<double> lengths_m{1, 2, 3, 4}, heading(10, std::numbers::pi / 2);
+  const vo::DeadReckoning walk = vo::dead_reckon(steps, lengths_m, heading, time_s);
+  ASSERT_EQ(walk.at_frame.size(), 10U);
+  EXPECT_NEAR(walk.at_frame[4].pose.x_m, 1, 1e-9);
+  EXPECT_NEAR(walk.at_frame[5].pose.x_m, 10, 1e-9);
+  EXPECT_NEAR(walk.at_frame[9].pose.x_m, 10, 1e-9);
+  ASSERT_EQ(walk.at_step.size(), 4U);
+  for (const vo::Pose2& pose : walk.at_step) EXPECT_NEAR(pose.heading_rad, std::numbers::pi / 2, 1e-9);
+}
+
 TEST(DeadReckon, RefusesWhatDoesNotFit) {
   const std::vector<double> heading(10, 0.0), one{1};
   EXPECT_THROW(vo::dead_reckon(steps_at({3}), {}, heading, times(10)), std::invalid_argument);
   EXPECT_THROW(vo::dead_reckon(steps_at({3}), one, heading, times(9)), std::invalid_argument);
   EXPECT_THROW(vo::dead_reckon(steps_at({10}), one, heading, times(10)), std::invalid_argument);
   EXPECT_THROW(vo::dead_reckon(steps_at({0}), one, heading, times(10)), std::invalid_argument);
-  EXPECT_THROW(vo::dead_reckon(steps_at({5, 5}), std::vector<double>{1, 1}, heading, times(10)),
+  EXPECT_THROW(vo::dead_reckon(steps_at({5, 4}), std::vector<double>{1, 1}, heading, times(10)),
                std::invalid_argument);
 }
 

@@ -130,7 +130,7 @@ TEST(DetectFootfalls, OfEmptyShortAndConstantSignals) {
         vo::detect_footfalls(std::vector<double>(frames, -1), std::vector<double>(frames, 0.01), time_s,
                              std::vector<bool>(frames, true), {});
     EXPECT_THAT(found.steps, IsEmpty()) << frames;
-    EXPECT_THAT(found.delta_dyn_deg, SizeIs(frames));
+    EXPECT_THAT(found.delta_dyn, SizeIs(frames));
   }
 }
 

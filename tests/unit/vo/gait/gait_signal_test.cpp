@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <vo/base/clock.hpp>
 #include <vo/gait/gait_signal.hpp>
 
 namespace {
@@ -76,10 +77,23 @@ TEST(GaitSignal, BridgesGapsAndCountsThem) {
   EXPECT_EQ(signal.bridged, 10U);
   for (std::size_t i = 0; i < 100; ++i) {
     EXPECT_EQ(signal.reliable[i], i != 0 && (i < 40 || i >= 50));
-    EXPECT_NEAR(signal.filtered_orientation_deg[i], 0.5,
-                1e-9);  // constant, so the line and the filter are it
+    EXPECT_NEAR(signal.orientation.values[i], 0.5, 1e-9);  // constant, so the line and the filter are it
     EXPECT_NEAR(signal.heading_rad[i], 0.01 * static_cast<double>(i), 1e-12);  // the gap turns on
   }
+}
+
+TEST(GaitSignal, NamesItsUnits) {
+  std::vector<vo::FrameMotion> motion(100, moved(0.5, 0));
+  for (vo::FrameMotion& frame : motion) frame.picture = vo::PictureMotion{.growth = 0.004};
+  const vo::GaitSignal signal = vo::gait_signal(motion, times(100));
+  EXPECT_EQ(vo::name_of(signal.orientation.unit), "deg");
+  EXPECT_EQ(vo::name_of(signal.shift.unit), "px");
+  EXPECT_EQ(vo::name_of(signal.bounce.unit), "px");
+  EXPECT_EQ(signal.rate_hz, vo::frame_rate_hz(signal.time_s));
+  for (const double growth_per_s : signal.growth_per_s) EXPECT_NEAR(growth_per_s, 0.1, 1e-9);
+  // A degree, or half a pixel, a second.
+  EXPECT_DOUBLE_EQ(vo::least_gait(vo::SignalUnit::kDegrees, 25), 0.04);
+  EXPECT_DOUBLE_EQ(vo::least_gait(vo::SignalUnit::kPixels, 50), 0.01);
 }
 
 TEST(GaitSignal, HeadingIsFreeOfTheSwingAndKeepsTurns) {

@@ -33,11 +33,6 @@ double analytic_power_gain(double hz, double rate_hz, int order, double cutoff_h
   return 1 / (1 + std::pow(warped, 2 * order));
 }
 
-TEST(FrameRate, IsOneOverTheMedianGap) {
-  EXPECT_DOUBLE_EQ(vo::frame_rate_hz(std::vector<double>{0, 0.25, 0.5, 2.5, 2.75}), 4);
-  EXPECT_THROW(vo::frame_rate_hz(std::vector<double>{1}), std::invalid_argument);
-}
-
 TEST(BridgeGaps, DrawsLinesBetweenWhatIsReliable) {
   const std::vector<double> values{9, 1, 9, 9, 9, 5, 6, 9};
   EXPECT_THAT(vo::bridge_gaps(values, {false, true, false, false, false, true, true, false}),

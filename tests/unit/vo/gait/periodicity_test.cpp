@@ -25,7 +25,7 @@ TEST(StridePeriodicity, OfASquareWaveByHand) {
     // Half the stride is 5 frames, so no interpolation blurs it; the other is rounding.
     EXPECT_NEAR(window.strength, 1, 1e-12);
     EXPECT_DOUBLE_EQ(window.step_s, 0.5);
-    EXPECT_NEAR(window.amplitude_deg, std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(window.amplitude, std::sqrt(2.0), 1e-12);
     EXPECT_TRUE(window.gait);
   }
   EXPECT_EQ(windows[7].frame, 14U);
@@ -52,7 +52,7 @@ TEST(StridePeriodicity, DoesNotKnowTheSizeOfTheSignal) {
   ASSERT_EQ(larger.size(), windows.size());
   for (std::size_t i = 0; i < windows.size(); ++i) {
     EXPECT_EQ(larger[i].strength, windows[i].strength);
-    EXPECT_EQ(larger[i].amplitude_deg, 1024 * windows[i].amplitude_deg);
+    EXPECT_EQ(larger[i].amplitude, 1024 * windows[i].amplitude);
   }
 }
 
@@ -61,7 +61,7 @@ TEST(StridePeriodicity, SeesNoGaitInNoiseBreathingOrNothing) {
     const auto windows = vo::stride_periodicity(vo::lowpass_zero_phase(signal.deg(), 25), 25);
     EXPECT_FALSE(windows.empty());
     for (const vo::Periodicity& window : windows) EXPECT_FALSE(window.gait) << window.frame;
-    EXPECT_FALSE(vo::gait_amplitude_deg(windows).has_value());
+    EXPECT_FALSE(vo::gait_amplitude(windows).has_value());
   };
   // One chance hit is to be expected in five hours; these are ten minutes.
   for (std::uint64_t seed = 0; seed < 10; ++seed) none_in(GaitSignal(seed).stand(60, 0, 1));
@@ -94,15 +94,15 @@ TEST(GaitAmplitude, IsTheMedianOfPower) {
   // Powers 1, 1, 4, 9 of gait, 15 in all: half of it, 7.5, is reached in the window of amplitude 3.
   const auto window = [](double amplitude, bool gait) {
     vo::Periodicity result;
-    result.amplitude_deg = amplitude;
+    result.amplitude = amplitude;
     result.gait = gait;
     return result;
   };
-  EXPECT_EQ(vo::gait_amplitude_deg(std::vector{window(3, true), window(1, true), window(2, true),
-                                               window(1, true), window(100, false)}),
+  EXPECT_EQ(vo::gait_amplitude(std::vector{window(3, true), window(1, true), window(2, true), window(1, true),
+                                           window(100, false)}),
             3);
-  EXPECT_FALSE(vo::gait_amplitude_deg(std::vector{window(100, false)}).has_value());
-  EXPECT_FALSE(vo::gait_amplitude_deg({}).has_value());
+  EXPECT_FALSE(vo::gait_amplitude(std::vector{window(100, false)}).has_value());
+  EXPECT_FALSE(vo::gait_amplitude({}).has_value());
 }
 
 TEST(StridePeriodicity, IsNotLedAstrayByAFewWildValues) {
@@ -113,7 +113,7 @@ TEST(StridePeriodicity, IsNotLedAstrayByAFewWildValues) {
     EXPECT_TRUE(window.gait) << window.frame;
     // The wave with its harmonic and noise has amplitude sqrt(1.06); 4 of 125 values cut off at some 2.1 add
     // 0.28 to its square. As they were, they would make it 7.7.
-    EXPECT_NEAR(window.amplitude_deg, 1, 0.16) << window.frame;
+    EXPECT_NEAR(window.amplitude, 1, 0.16) << window.frame;
   }
 }
 
@@ -122,13 +122,13 @@ TEST(LocalGaitAmplitude, IsTheMedianOfTheWindowsThatCoverAFrame) {
   for (std::size_t i = 0; i < 4; ++i) {
     windows[i].frame = 2 * i;
     windows[i].reach = 3;
-    windows[i].amplitude_deg = static_cast<double>(10 - i);
+    windows[i].amplitude = static_cast<double>(10 - i);
     windows[i].gait = i != 1;
   }
   // Windows 0, 2, 3 of gait (10, 8, 7) reach over frames 0-3, 1-7, 3-9; of two, the median is their mean.
-  EXPECT_THAT(vo::local_gait_amplitude_deg(windows, 11),
+  EXPECT_THAT(vo::local_gait_amplitude(windows, 11),
               testing::ElementsAre(10, 9, 9, 8, 7.5, 7.5, 7.5, 7.5, 7, 7, 0));
-  EXPECT_THAT(vo::local_gait_amplitude_deg({}, 2), testing::ElementsAre(0, 0));
+  EXPECT_THAT(vo::local_gait_amplitude({}, 2), testing::ElementsAre(0, 0));
 }
 
 TEST(NearestWindow, IsByTheMiddle) {
@@ -144,9 +144,9 @@ TEST(NearestWindow, IsByTheMiddle) {
 
 TEST(SinusoidAmplitude, IsByHandAndCutOffAtTheEnds) {
   const std::vector<double> signal{3, 0, 0, 1, 1};
-  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude_deg(signal, 2, 1), std::sqrt(2.0 / 3));
-  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude_deg(signal, 0, 1), 3);
-  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude_deg(signal, 4, 1), std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude(signal, 2, 1), std::sqrt(2.0 / 3));
+  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude(signal, 0, 1), 3);
+  EXPECT_DOUBLE_EQ(vo::sinusoid_amplitude(signal, 4, 1), std::sqrt(2.0));
 }
 
 }  // namespace

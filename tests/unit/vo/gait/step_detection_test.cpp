@@ -25,9 +25,9 @@ vo::StepDetection detect(const GaitSignal& signal, const vo::StepDetectionOption
 }
 
 /// Everything the thresholds of the paper do, without what was put before them.
-vo::StepDetectionOptions paper_only(double delta_min_deg) {
+vo::StepDetectionOptions paper_only(double delta_min) {
   vo::StepDetectionOptions options{
-      .delta_min_deg = delta_min_deg, .first_step_ratio = 0, .stride_ratio = 0, .max_bridged_s = 0};
+      .delta_min = delta_min, .first_step_ratio = 0, .stride_ratio = 0, .max_bridged_s = 0};
   options.periodicity.min_strength = -1;
   options.periodicity.min_gait_s = 0;
   return options;
@@ -73,9 +73,9 @@ TEST(DetectSteps, WorkedExample) {
   EXPECT_THAT(frames_of(found), ElementsAre(2, 6, 11, 14, 18, 26, 29));
   EXPECT_EQ(found.steps[0].leg, vo::Leg::kLeft);
   EXPECT_EQ(found.steps[1].leg, vo::Leg::kRight);
-  EXPECT_EQ(found.steps[2].value_deg, 1.1);
+  EXPECT_EQ(found.steps[2].value, 1.1);
   EXPECT_EQ(found.steps[2].time_s, 11 / 8.0);
-  EXPECT_EQ(found.delta_min_deg, 0.2);
+  EXPECT_EQ(found.delta_min, 0.2);
   EXPECT_EQ(found.bridged, 0U);
 }
 
@@ -88,9 +88,9 @@ TEST(DetectSteps, DynamicThresholdByHand) {
   const auto found = vo::detect_steps(signal, seconds(signal.size(), 8),
                                       std::vector<bool>(signal.size(), true), paper_only(0.2));
   EXPECT_THAT(frames_of(found), ElementsAre(2, 6, 10, 18));
-  EXPECT_EQ(found.delta_dyn_deg[5], 0);                // no pair yet
-  EXPECT_EQ(found.delta_dyn_deg[10], 0.5);             // |1 - -1| / 4
-  EXPECT_DOUBLE_EQ(found.delta_dyn_deg[20], 1.9 / 4);  // the median of 2.0 and 1.8 is 1.9
+  EXPECT_EQ(found.delta_dyn[5], 0);                // no pair yet
+  EXPECT_EQ(found.delta_dyn[10], 0.5);             // |1 - -1| / 4
+  EXPECT_DOUBLE_EQ(found.delta_dyn[20], 1.9 / 4);  // the median of 2.0 and 1.8 is 1.9
 }
 
 TEST(DetectSteps, FindsEveryStepOfAWalkFromAStrollToARun) {
@@ -103,7 +103,7 @@ TEST(DetectSteps, FindsEveryStepOfAWalkFromAStrollToARun) {
       EXPECT_EQ(found.steps.front().leg, vo::Leg::kLeft);
       // A quarter of the amplitude of sin(x) + 0.2 sin(2x + 1), which is 0.5 sqrt(1.04), less what the
       // low-pass takes of it (at 3 steps/s, gains of 0.98 and 0.76), within the noise of 0.06.
-      EXPECT_NEAR(*found.delta_min_deg, 0.25 * 0.5, 0.012);
+      EXPECT_NEAR(*found.delta_min, 0.25 * 0.5, 0.012);
     }
   }
 }
@@ -112,7 +112,7 @@ TEST(DetectSteps, FindsNoneInAStand) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto found = detect(GaitSignal(seed).stand(60, 0.05, 0.1));
     EXPECT_THAT(found.steps, IsEmpty()) << seed;
-    EXPECT_FALSE(found.delta_min_deg.has_value());
+    EXPECT_FALSE(found.delta_min.has_value());
   }
 }
 
@@ -186,7 +186,7 @@ TEST(DetectSteps, DependsOnTheSignalsShapeAlone) {
   for (double& value : signal) value *= -4;  // exact
   const auto mirrored = vo::detect_steps(signal, walk.time_s(), walk.reliable());
   EXPECT_EQ(frames_of(found), frames_of(mirrored));
-  EXPECT_EQ(*mirrored.delta_min_deg, 4 * *found.delta_min_deg);
+  EXPECT_EQ(*mirrored.delta_min, 4 * *found.delta_min);
   for (std::size_t i = 0; i < found.steps.size(); ++i) EXPECT_NE(found.steps[i].leg, mirrored.steps[i].leg);
 }
 
@@ -195,8 +195,8 @@ TEST(DetectSteps, OfEmptyShortAndConstantSignals) {
     const auto found = vo::detect_steps(std::vector<double>(frames, 1.0), seconds(frames, 25),
                                         std::vector<bool>(frames, true));
     EXPECT_THAT(found.steps, IsEmpty()) << frames;
-    EXPECT_EQ(found.delta_dyn_deg.size(), frames);
-    EXPECT_THAT(found.delta_dyn_deg, Each(0));
+    EXPECT_EQ(found.delta_dyn.size(), frames);
+    EXPECT_THAT(found.delta_dyn, Each(0));
   }
 }
 
@@ -206,7 +206,7 @@ TEST(DetectSteps, RefusesWhatMakesNoSense) {
   const std::vector<bool> reliable(10, true);
   EXPECT_THROW(vo::detect_steps(signal, seconds(9, 25), reliable), std::invalid_argument);
   EXPECT_THROW(vo::detect_steps(signal, time_s, std::vector<bool>(9)), std::invalid_argument);
-  EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.delta_min_deg = -1}), std::invalid_argument);
+  EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.delta_min = -1}), std::invalid_argument);
   EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.delta_dyn_ratio = -1}), std::invalid_argument);
   EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.pairs = 0}), std::invalid_argument);
   EXPECT_THROW(vo::detect_steps(signal, time_s, reliable, {.stride_ratio = -1}), std::invalid_argument);

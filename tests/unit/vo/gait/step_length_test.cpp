@@ -17,7 +17,7 @@ using testing::IsEmpty;
 std::vector<vo::Step> steps_at(const std::vector<double>& time_s) {
   std::vector<vo::Step> steps;
   for (const double s : time_s)
-    steps.push_back({.frame = 0, .time_s = s, .leg = vo::Leg::kLeft, .value_deg = 0, .bridged = false});
+    steps.push_back({.frame = 0, .time_s = s, .leg = vo::Leg::kLeft, .value = 0, .bridged = false});
   return steps;
 }
 

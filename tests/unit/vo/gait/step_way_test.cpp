@@ -176,7 +176,7 @@ TEST(CompleteSteps, KeepsTheLargerOfTwoWithNoWayBetweenThem) {
   const auto time_s = seconds(81);
   for (const double again : {-0.9, -1.1}) {
     vo::StepDetection seen = steps_at(frames, time_s);
-    seen.steps[5].value_deg = again;
+    seen.steps[5].value = again;
     const auto all = vo::complete_steps(seen, vo::StepWay(growth, time_s, frames), growth, time_s);
     ASSERT_THAT(all.steps, testing::SizeIs(11));
     EXPECT_EQ(all.steps[4].frame, again == -0.9 ? 25U : 50U);

@@ -50,8 +50,8 @@ TEST(HybridMotion, PutsStepsThereWhereTheyAreTheBetter) {
   KnownMotion walk = known_motion(60, 0.8, 1.8);
   walk.lose(600, 725, 3);
   vo::Rng rng(3);
-  for (auto& errors : walk.errors.by_separation)
-    for (float& error : errors) error *= static_cast<float>(rng.uniform(0.3, 1.7));
+  for (auto& errors : walk.errors.by_span)
+    for (vo::Comparison& compared : errors) compared.error *= static_cast<float>(rng.uniform(0.3, 1.7));
   vo::MotionEvidence evidence = walk.evidence();
   evidence.steps_m = walk.metres;
   evidence.steps_known.assign(walk.frames(), true);
@@ -140,8 +140,8 @@ TEST(HybridMotion, LearnsWhatErrorsMeanNearTheLoss) {
   // Another scene from the middle on, in which errors are twice as large.
   KnownMotion walk = known_motion(160, 0.8, 1.8);
   constexpr std::size_t kOther = 2000;
-  for (auto& errors : walk.errors.by_separation)
-    for (std::size_t i = kOther; i < errors.size(); ++i) errors[i] *= 2;
+  for (auto& errors : walk.errors.by_span)
+    for (std::size_t i = kOther; i < errors.size(); ++i) errors[i].error *= 2;
   walk.lose(1000, 1100, 1);
   walk.lose(3000, 3100, 1);
   const vo::HybridMotion motion = vo::hybrid_motion(walk.evidence(), unsmoothed());
@@ -190,14 +190,31 @@ TEST(HybridMotion, WithoutATrackIsSteps) {
   for (std::size_t i = 1; i < walk.frames(); ++i) EXPECT_EQ(motion.frames[i].value, walk.metres[i]);
 }
 
-TEST(HybridMotion, WithAlignmentErrorAloneIsInFramesOfMeanSpeed) {
+TEST(HybridMotion, WithAlignmentErrorAloneIsInSecondsAtMeanSpeed) {
   const KnownMotion walk = known_motion(40, 0.8, 1.8);
   const vo::MotionEvidence evidence{
       .time_s = walk.time_s, .errors = &walk.errors, .errors_known = std::vector<bool>(walk.frames(), true)};
   const vo::HybridMotion motion = vo::hybrid_motion(evidence);
   EXPECT_FALSE(motion.metric);
-  // SSS learns frame separations, so the mean is one frame a frame; a bent relation adds a little.
-  EXPECT_NEAR(length(motion, 0, walk.frames()) / static_cast<double>(walk.frames() - 1), 1, 0.05);
+  // It is learned over time, so that the mean is a second a second; a bent relation adds a little.
+  EXPECT_NEAR(length(motion, 0, walk.frames()) / walk.time_s.back(), 1, 0.05);
+}
+
+TEST(HybridMotion, WalksOnOverAShortJumpOfTheClockAndStopsAtALongOne) {
+  KnownMotion walk = known_motion(40, 1, 1);
+  for (const double jump_s : {2.0, 600.0}) {
+    vo::MotionEvidence evidence = walk.evidence();
+    for (std::size_t i = 500; i < walk.frames(); ++i) evidence.time_s[i] += jump_s;
+    vo::DisplacementTrack track = walk.track;
+    track.frames[500].valid = false;
+    evidence.track = &track;
+    evidence.errors_known[500] = false;
+    const vo::HybridMotion motion = vo::hybrid_motion(evidence, unsmoothed());
+    EXPECT_EQ(motion.frames[500].source, DisplacementSource::kHeld);
+    // A metre a second on both sides, and the 1/25 s that lay between the two frames before.
+    EXPECT_NEAR(motion.frames[500].value, jump_s < 3 ? jump_s + 0.04 : 0, 1e-6);
+    EXPECT_NEAR(motion.frames[501].value, 0.04, 1e-6);
+  }
 }
 
 TEST(HybridMotion, TrustsNoSourceMoreThanItDeserves) {
@@ -205,8 +222,8 @@ TEST(HybridMotion, TrustsNoSourceMoreThanItDeserves) {
   walk.lose(600, 725, 3);
   const vo::HybridMotion exact = vo::hybrid_motion(walk.evidence(), unsmoothed());
   vo::Rng rng(3);
-  for (auto& errors : walk.errors.by_separation)
-    for (float& error : errors) error *= static_cast<float>(rng.uniform(0.3, 1.7));
+  for (auto& errors : walk.errors.by_span)
+    for (vo::Comparison& compared : errors) compared.error *= static_cast<float>(rng.uniform(0.3, 1.7));
   const vo::HybridMotion noisy = vo::hybrid_motion(walk.evidence(), unsmoothed());
   EXPECT_LT(exact.frames[650].sigma, 0.1 * exact.frames[650].value);
   EXPECT_GT(noisy.frames[650].sigma / noisy.frames[650].value,

@@ -1,3 +1,5 @@
+#include "support/made_errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,31 +18,24 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Errors of a walk at the given speeds (per frame) whose alignment error is `error_of(distance)`.
+/// Errors of a walk at the given speeds (per frame, 10 a second) whose alignment error is
+/// `error_of(distance)`.
 template <typename ErrorOf>
-vo::AlignmentErrors errors_of(const std::vector<double>& speed, std::size_t max_separation,
-                              ErrorOf error_of) {
+vo::AlignmentErrors errors_of(const std::vector<double>& speed, std::size_t spans, ErrorOf error_of) {
   std::vector<double> travelled{0};
   for (const double v : speed) travelled.push_back(travelled.back() + v);
-  vo::AlignmentErrors errors;
-  for (std::size_t s = 0; s <= max_separation; ++s) {
-    errors.by_separation.emplace_back();
-    for (std::size_t i = 0; i + s < travelled.size(); ++i) {
-      errors.by_separation[s].push_back(
-          s == 0 ? 0.0F : static_cast<float>(error_of(travelled[i + s] - travelled[i])));
-    }
-  }
-  return errors;
+  return test_support::made_errors(travelled.size(), 10, spans, [&](std::size_t i, std::size_t j) {
+    return error_of(travelled[j] - travelled[i]);
+  });
 }
 
 double linear(double distance) {
   return 0.05 * distance;
 }
 
-/// Frames at 10 Hz.
 std::vector<double> times(std::size_t frames) {
   std::vector<double> time_s(frames);
-  for (std::size_t i = 0; i < frames; ++i) time_s[i] = 0.1 * static_cast<double>(i);
+  for (std::size_t i = 0; i < frames; ++i) time_s[i] = static_cast<double>(i) / 10;
   return time_s;
 }
 
@@ -51,15 +46,17 @@ double mean(const std::vector<double>& values, std::size_t begin, std::size_t en
 }
 
 TEST(LearnMotionModel, KeepsThePartThatIncreases) {
-  const auto model = vo::learn_motion_model(std::vector<double>{0, 0.1, 0.3, 0.4, 0.35, 0.6});
+  const auto model = vo::learn_motion_model(
+      {.seconds = {0, 0.04, 0.08, 0.1, 0.16, 0.2}, .error = {0, 0.1, 0.3, 0.4, 0.35, 0.6}});
   EXPECT_THAT(model.error, ElementsAre(0, 0.1, 0.3, 0.4));
-  EXPECT_THAT(model.separation, ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(model.separation, ElementsAre(0, 0.04, 0.08, 0.1));
   EXPECT_TRUE(model.learned());
 }
 
 TEST(LearnMotionModel, LearnsNothingFromNoMotion) {
   for (const auto& errors : {std::vector<double>{}, {0}, {0, 0, 0}, {0, -0.1, 0.2}, {0, std::nan("")}}) {
-    const auto model = vo::learn_motion_model(errors);
+    const auto model =
+        vo::learn_motion_model({.seconds = std::vector<double>(errors.size(), 1), .error = errors});
     EXPECT_FALSE(model.learned());
     EXPECT_THAT(vo::separation_of(model, std::vector<float>{0, 0.5F, 9}), Each(0));
   }
@@ -123,14 +120,14 @@ TEST(SeparationOf, WorksFromTwoKnots) {
   EXPECT_THAT(vo::separation_of(model, {}), IsEmpty());
 }
 
-TEST(EstimateMotion, OfASteadyWalkIsOneFramePerFrame) {
+TEST(EstimateMotion, OfASteadyWalkIsASecondASecond) {
   const auto errors =
       errors_of(std::vector<double>(99, 3.7), 10, [](double d) { return 1 - std::exp(-d / 30); });
   const auto displacement = vo::estimate_motion(errors, {}, times(100));
   ASSERT_EQ(displacement.size(), 100U);
   EXPECT_EQ(displacement[0], 0);
   // Every mean error is the error of every frame, so all that is left is the table's 1e-5 and floats.
-  for (std::size_t i = 1; i < 100; ++i) EXPECT_NEAR(displacement[i], 1, 1e-4) << i;
+  for (std::size_t i = 1; i < 100; ++i) EXPECT_NEAR(displacement[i], 0.1, 1e-5) << i;
 }
 
 TEST(EstimateMotion, FollowsTheSpeed) {
@@ -141,8 +138,8 @@ TEST(EstimateMotion, FollowsTheSpeed) {
         vo::estimate_motion(errors_of(speed, 10, linear), {}, times(400), {.separations = separations});
     // The mean errors of large separations miss the walk's ends, 10 of 400 frames; the step from slow to
     // fast is smeared over as many frames as there are separations.
-    for (std::size_t i = 1; i <= 195; ++i) EXPECT_NEAR(displacement[i], 0.5, 0.5 * 10 / 400) << i;
-    for (std::size_t i = 206; i < 400; ++i) EXPECT_NEAR(displacement[i], 1.5, 1.5 * 10 / 400) << i;
+    for (std::size_t i = 1; i <= 195; ++i) EXPECT_NEAR(displacement[i], 0.05, 0.05 * 10 / 400) << i;
+    for (std::size_t i = 206; i < 400; ++i) EXPECT_NEAR(displacement[i], 0.15, 0.15 * 10 / 400) << i;
   }
 }
 
@@ -188,9 +185,11 @@ TEST(EstimateMotion, NoFrameIsFasterThanTheLimit) {
   const auto capped = vo::estimate_motion(errors, {}, times(301), {.separations = 1, .max_speed = 1.5});
   const auto free = vo::estimate_motion(
       errors, {}, times(301), {.separations = 1, .max_speed = std::numeric_limits<double>::infinity()});
-  EXPECT_EQ(*std::ranges::max_element(capped), 1.5);
-  EXPECT_GT(*std::ranges::max_element(free), 4);
-  for (std::size_t i = 0; i < free.size(); ++i) EXPECT_EQ(capped[i], std::min(free[i], 1.5)) << i;
+  const auto time_s = times(301);
+  EXPECT_NEAR(*std::ranges::max_element(capped), 0.15, 1e-12);
+  EXPECT_GT(*std::ranges::max_element(free), 0.4);
+  for (std::size_t i = 1; i < free.size(); ++i)
+    EXPECT_DOUBLE_EQ(capped[i], std::min(free[i], 1.5 * (time_s[i] - time_s[i - 1]))) << i;
 }
 
 TEST(EstimateMotion, DoesNotLearnFromExcludedFrames) {
@@ -202,22 +201,21 @@ TEST(EstimateMotion, DoesNotLearnFromExcludedFrames) {
   const auto displacement = vo::estimate_motion(errors, excluded, times(301));
   // What is left for learning is steady at speed 1, so the rest is measured in it: exact but for the table's
   // 1e-5 and floats.
-  EXPECT_NEAR(displacement[50], 1, 1e-4);
-  EXPECT_NEAR(displacement[150], 1.9, 1e-4);
+  EXPECT_NEAR(displacement[50], 0.1, 1e-5);
+  EXPECT_NEAR(displacement[150], 0.19, 1e-5);
 }
 
 TEST(EstimateMotion, ALocalWindowFollowsTheScene) {
   // A steady walk into a scene that changes half as much for the same way.
   auto errors = errors_of(std::vector<double>(399, 1.0), 10, linear);
-  for (auto& row : errors.by_separation) {
-    for (std::size_t i = 200; i < row.size(); ++i) row[i] /= 2;
-  }
+  for (auto& comparisons : errors.by_span)
+    for (std::size_t i = 200; i < comparisons.size(); ++i) comparisons[i].error /= 2;
   const auto whole = vo::estimate_motion(errors, {}, times(400));
   const auto local = vo::estimate_motion(errors, {}, times(400), {.local_window_s = 5});
   EXPECT_NEAR(mean(whole, 300, 390) / mean(whole, 20, 150), 0.5, 0.05);
   // 5 s after the change the window holds nothing of the old scene: exact but for the table's 1e-5.
-  EXPECT_NEAR(mean(local, 300, 380), 1, 1e-4);
-  EXPECT_NEAR(mean(local, 20, 150), 1, 1e-4);
+  EXPECT_NEAR(mean(local, 300, 380), 0.1, 1e-5);
+  EXPECT_NEAR(mean(local, 20, 150), 0.1, 1e-5);
 
   // A window as long as the walk is the whole walk.
   EXPECT_EQ(vo::estimate_motion(errors, {}, times(400), {.local_window_s = 40}), whole);
@@ -229,18 +227,60 @@ TEST(EstimateMotion, OfWalksWithoutMotionIsZero) {
   EXPECT_THAT(vo::estimate_motion(errors_of({}, 10, linear), {}, times(1)), ElementsAre(0));
   // Two frames: the one step there is, is the mean.
   EXPECT_THAT(vo::estimate_motion(errors_of({2}, 10, linear), {}, times(2)),
-              ElementsAre(0, testing::DoubleNear(1, 1e-5)));
+              ElementsAre(0, testing::DoubleNear(0.1, 1e-5)));
+}
+
+TEST(EstimateMotion, IsTheSameAtAnyFrameRateAndWhereItChanges) {
+  // A wall that a camera passes at a speed that swings: the error grows with the way and flattens out.
+  const auto place = [](double s) { return s + 0.8 * std::sin(0.7 * s); };
+  const auto moved = [&](const std::vector<double>& time_s) {
+    vo::AlignmentErrors errors = vo::alignment_errors(vo::make_image_stack(1, 1, time_s.size()), time_s);
+    for (auto& comparisons : errors.by_span) {
+      for (std::size_t i = 0; i < comparisons.size(); ++i) {
+        const double way = place(time_s[i + comparisons[i].frames]) - place(time_s[i]);
+        comparisons[i].error = static_cast<float>(way / (0.1 + way));
+      }
+    }
+    std::vector<double> travelled(1);
+    for (const double d : vo::estimate_motion(errors, {}, time_s)) travelled.push_back(travelled.back() + d);
+    return travelled;
+  };
+  const auto clock = [](const auto& frame_s) {
+    std::vector<double> time_s{0};
+    while (time_s.back() < 90) time_s.push_back(time_s.back() + frame_s(time_s.back()));
+    return time_s;
+  };
+  const auto rate = [](double hz) { return [hz](double) { return 1 / hz; }; };
+  const double at_25 = moved(clock(rate(25))).back();
+  // The mean errors fit the time, so the sum is the walk's length but for the bend of the curve.
+  EXPECT_NEAR(at_25, 90, 5);
+  for (const double hz : {12.5, 24.0, 30.0, 50.0, 60.0})
+    EXPECT_NEAR(moved(clock(rate(hz))).back(), at_25, 0.02 * at_25) << hz;
+  const auto by_seconds = [](double s) { return static_cast<int>(s + 1e-9) % 2 == 0 ? 0.04 : 0.08; };
+  // Odd spans are compared in the even seconds alone, in which the camera is not as fast as in the others.
+  EXPECT_NEAR(moved(clock(by_seconds)).back(), at_25, 0.03 * at_25);
+}
+
+TEST(ApplyMotionModel, SaysNothingOverAJumpOfTheClock) {
+  std::vector<double> time_s = times(200);
+  for (std::size_t i = 100; i < 200; ++i) time_s[i] += 4;
+  vo::AlignmentErrors errors = vo::alignment_errors(vo::make_image_stack(1, 1, 200), time_s);
+  for (auto& comparisons : errors.by_span)
+    for (vo::Comparison& compared : comparisons) compared.error = compared.seconds;
+  const auto moved =
+      vo::apply_motion_model(errors, vo::learn_motion_model(vo::mean_errors(errors)), time_s, 5, 2);
+  for (std::size_t i = 0; i < 200; ++i) EXPECT_EQ(moved[i].has_value(), i != 100) << i;
+  EXPECT_EQ(vo::estimate_motion(errors, {}, time_s)[100], 0);
 }
 
 TEST(EstimateMotion, RefusesOptionsOutOfRange) {
   const auto errors = errors_of({1, 1, 1}, 2, linear);
-  EXPECT_NO_THROW(vo::estimate_motion(errors, {}, {}, {.separations = 2}));  // times are not needed
-  EXPECT_THROW(vo::estimate_motion(errors, {}, {}, {.separations = 0}), std::invalid_argument);
-  EXPECT_THROW(vo::estimate_motion(errors, {}, {}, {.separations = 3}), std::invalid_argument);
-  EXPECT_THROW(vo::estimate_motion(errors, {}, {}, {.separations = 1, .max_speed = 0}),
+  EXPECT_NO_THROW(vo::estimate_motion(errors, {}, times(4), {.separations = 2}));
+  EXPECT_THROW(vo::estimate_motion(errors, {}, times(4), {.separations = 0}), std::invalid_argument);
+  EXPECT_THROW(vo::estimate_motion(errors, {}, times(4), {.separations = 3}), std::invalid_argument);
+  EXPECT_THROW(vo::estimate_motion(errors, {}, times(4), {.separations = 1, .max_speed = 0}),
                std::invalid_argument);
-  EXPECT_THROW(vo::estimate_motion(errors, {}, times(3), {.separations = 1, .local_window_s = 1}),
-               std::invalid_argument);
+  EXPECT_THROW(vo::estimate_motion(errors, {}, times(3), {.separations = 1}), std::invalid_argument);
 }
 
 }  // namespace

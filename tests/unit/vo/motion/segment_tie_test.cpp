@@ -97,7 +97,7 @@ TEST(TieByRelation, IsNotReadInATurn) {
   // much.
   for (std::size_t i = kFound; i < kFound + 100; ++i) {
     lost.walk.track.frames[i].turn_rad = i % 2 == 0 ? 0.02 : -0.02;
-    for (auto& errors : lost.walk.errors.by_separation) errors[i] *= 3;
+    for (auto& errors : lost.walk.errors.by_span) errors[i].error *= 3;
   }
   const auto tie = vo::tie_by_relation(lost.walk.evidence(), lost.run(), lost.way, lost.tied);
   ASSERT_TRUE(tie);

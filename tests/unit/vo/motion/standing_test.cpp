@@ -57,6 +57,13 @@ TEST(DistantError, OfUnrelatedNormalPicturesIsAsStated) {
   EXPECT_NEAR(vo::distant_error(walk), 2 / std::sqrt(std::numbers::pi), 0.057);
 }
 
+TEST(DistantError, LeavesFramesOut) {
+  const vo::ImageStack walk{.width = 1, .height = 1, .pixels = {128, 0, 128, 128, 255, 144, 160, 192}};
+  EXPECT_EQ(vo::distant_error(walk, {false, true, false, false, true, false, false, false}), 2);
+  EXPECT_EQ(vo::distant_error(walk, std::vector<bool>(8, true)), 0);
+  EXPECT_THROW(vo::distant_error(walk, {true}), std::invalid_argument);
+}
+
 TEST(DistantError, OfFewerThanTwoFramesIsZero) {
   EXPECT_EQ(vo::distant_error(random_images(4, 4, 0, 1)), 0);
   EXPECT_EQ(vo::distant_error(random_images(4, 4, 1, 1)), 0);
@@ -122,6 +129,40 @@ TEST(StandingSteps, GoByTimeNotByFrames) {
   for (std::size_t i = 0; i < 12; ++i) time_s[i] = static_cast<double>(i);
   const auto standing = vo::standing_steps(walk, time_s, vo::distant_error(walk));
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(standing[i], i >= 5 && i <= 7) << i;
+}
+
+TEST(StandingSteps, AreNotFoundOverAJumpOfTheClock) {
+  // One view in all of the frames around the jump, too short on both sides to be a stand.
+  const auto walk = walk_with_a_stop(120, 50, 70);
+  std::vector<double> time_s = times(120);
+  for (std::size_t i = 60; i < 120; ++i) time_s[i] += 5;
+  EXPECT_THAT(vo::standing_steps(walk, time_s, vo::distant_error(walk)), Each(false));
+}
+
+TEST(FindStands, AreThoseOfStandingStepsWhereMostOfTheWalkMoves) {
+  const auto walk = walk_with_a_stop(120, 40, 80);
+  const vo::Stands stands = vo::find_stands(walk, times(120));
+  EXPECT_FALSE(stands.still);
+  EXPECT_EQ(stands.distant_error, vo::distant_error(walk));
+  EXPECT_EQ(stands.standing, vo::standing_steps(walk, times(120), stands.distant_error));
+}
+
+TEST(FindStands, AreFoundWhereMostOfTheWalkStands) {
+  // Frames half the walk apart show one view.
+  const auto walk = walk_with_a_stop(400, 30, 380);
+  EXPECT_TRUE(vo::standing_still(vo::distant_error(walk)));
+  const vo::Stands stands = vo::find_stands(walk, times(400));
+  EXPECT_FALSE(stands.still);
+  ASSERT_EQ(stands.standing.size(), 400U);
+  for (std::size_t i = 0; i < 400; ++i) EXPECT_EQ(stands.standing[i], i >= 31 && i <= 379) << i;
+}
+
+TEST(FindStands, SayThatAWalkNeverLeavesItsFirstView) {
+  const vo::Stands stands = vo::find_stands(walk_with_a_stop(100, 0, 100), times(100));
+  EXPECT_TRUE(stands.still);
+  EXPECT_THAT(stands.standing, IsEmpty());
+  EXPECT_TRUE(vo::find_stands(random_images(4, 4, 0, 1), {}).still);
+  EXPECT_TRUE(vo::find_stands(random_images(4, 4, 1, 1), times(1)).still);
 }
 
 TEST(StandingSteps, OfEmptyAndMismatchedInput) {

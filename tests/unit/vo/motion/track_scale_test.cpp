@@ -176,8 +176,8 @@ TEST(TieTrackScale, TiesSegmentsByTheGroundWithoutSteps) {
   walk.lose(900, 930, 0.1);
   see_ground(walk);
   // Another scene, of twice the contrast: alignment error would be wrong by as much.
-  for (auto& errors : walk.errors.by_separation)
-    for (std::size_t i = 560; i < errors.size(); ++i) errors[i] *= 2;
+  for (auto& errors : walk.errors.by_span)
+    for (std::size_t i = 560; i < errors.size(); ++i) errors[i].error *= 2;
   const vo::ScaledTrack tied = vo::tie_track_scale(walk.evidence(), unsmoothed());
   EXPECT_FALSE(tied.metric);
   EXPECT_TRUE(tied.by_ground);

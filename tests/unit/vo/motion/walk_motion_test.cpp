@@ -86,7 +86,24 @@ TEST(WalkMotion, RefusesWhatTheWalkWasNotReadFor) {
     EXPECT_THROW(vo::walk_motion(walk, source), std::invalid_argument) << vo::name_of(source);
   }
   const vo::Walk stand = Wall(200, 7).walk(std::vector<double>(100, 5));
-  EXPECT_THROW(vo::walk_motion(stand, vo::MotionSource::kHybrid), vo::Error);
+  EXPECT_THROW(vo::walk_motion(stand, vo::MotionSource::kSad), vo::Error);
+}
+
+TEST(WalkMotion, OfACameraThatNeverLeavesItsFirstViewIsNone) {
+  vo::Walk stand = Wall(200, 7).walk(std::vector<double>(100, 5));
+  stand.track.emplace();  // of what seemed to move
+  for (std::size_t i = 0; i < stand.frames(); ++i)
+    stand.track->frames.push_back({.valid = i > 0, .displacement = 0.1});
+  const vo::WalkMotion motion = vo::walk_motion(stand, vo::MotionSource::kHybrid);
+  ASSERT_EQ(motion.frames.size(), 100U);
+  for (std::size_t i = 1; i < 100; ++i) {
+    EXPECT_EQ(motion.frames[i].value, 0);
+    EXPECT_EQ(motion.frames[i].source, vo::DisplacementSource::kAlignmentError);
+  }
+  EXPECT_FALSE(motion.visual);
+  // A file is believed.
+  stand.track->scale = vo::TrackScale::kMetric;
+  EXPECT_NEAR(vo::walk_motion(stand, vo::MotionSource::kFile).frames[50].value, 0.1, 1e-9);
 }
 
 TEST(KeepFor, AsksForWhatTheSourceNeeds) {
