@@ -307,7 +307,7 @@ TEST(StageOptions, AreWhatSettingsSay) {
   EXPECT_EQ(options.walk.vo.fov_deg, 90);  // one camera
   EXPECT_EQ(options.sampling.motion.pedestrian.step_length.model, vo::StepLengthModel::kFixed);
   EXPECT_EQ(options.sampling.motion.pedestrian.steps.signal, vo::StepSignal::kOrientation);
-  EXPECT_EQ(options.sampling.motion.pedestrian.steps.detection.delta_min_deg, 0.4);
+  EXPECT_EQ(options.sampling.motion.pedestrian.steps.detection.delta_min, 0.4);
   EXPECT_EQ(options.sampling.motion.visual.patch.shape, vo::PatchShape::kWindow);
   ASSERT_TRUE(options.matching.openseqslam);
   EXPECT_FALSE(options.matching.openseqslam->quirks.constant_patch_is_zero);
