@@ -126,10 +126,10 @@ TEST(SampleWalk, KeyframesOfMetricMotionAreSoManyMetresApart) {
   options.spacing_m = 0.5;
   const auto sampled = place::sample_walk(known.walk, options);
   EXPECT_EQ(sampled.unit, 0.5);
-  // Eq. 4 in metres: n times the mean displacement of a frame.
+  // Eq. 4 in metres: n times the mean displacement in 1/25 s; these frames are 1/30 s apart.
   options.spacing_m.reset();
   options.n = 3;
-  EXPECT_NEAR(place::sample_walk(known.walk, options).unit, 0.3, 1e-3);  // the first frame has none
+  EXPECT_NEAR(place::sample_walk(known.walk, options).unit, 3 * 0.1 * 30 / 25, 1e-3);  // the first frame has none
 }
 
 TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
