@@ -129,7 +129,8 @@ TEST(SampleWalk, KeyframesOfMetricMotionAreSoManyMetresApart) {
   // Eq. 4 in metres: n times the mean displacement in 1/25 s; these frames are 1/30 s apart.
   options.spacing_m.reset();
   options.n = 3;
-  EXPECT_NEAR(place::sample_walk(known.walk, options).unit, 3 * 0.1 * 30 / 25, 1e-3);  // the first frame has none
+  EXPECT_NEAR(place::sample_walk(known.walk, options).unit, 3 * 0.1 * 30 / 25,
+              1e-3);  // the first frame has none
 }
 
 TEST_F(WalkSamplingTest, MakesATraverseOfASampledWalk) {
