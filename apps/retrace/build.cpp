@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include <place/place.hpp>
+#include <place/route/route_lock.hpp>
 #include <place/route/survey.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
@@ -86,6 +87,9 @@ void build(BuildOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_writable(options.output);
   if (options.name.empty()) options.name = default_name(options.walk);
+  const place::RouteLock lock(options.output, {.waiting = [&] {
+                                spdlog::info("{}: another build adds to it; waiting", options.output);
+                              }});
   const bool exists = std::filesystem::exists(options.output);
   place::Route route = exists ? place::read_route(options.output) : place::new_route(options.settings);
   check_name_is_free(route, options);
@@ -105,6 +109,7 @@ void build(BuildOptions& options) {
   const place::AddedTraverse added =
       place::add(route, options.name, walk, survey, settings, options.common.force);
   for (const std::string& warning : added.warnings) spdlog::warn("{}", warning);
+  lock.check_unchanged();
   place::write_route(options.output, route);
   print(options, route, added);
 }

@@ -526,6 +526,15 @@ class CliTest(unittest.TestCase):
             for file in ("matches.csv", "config.toml", "trajectory.tum"):
                 self.assertEqual((self.folder / "plain" / file).read_bytes(), (self.folder / "config" / file).read_bytes(), file)
 
+    def test_two_builds_at_once_lose_no_walk(self):
+        route = self.folder / "both.db"
+        builds = [subprocess.Popen([RETRACE, "build", str(self.walks.reference), "-o", str(route), "--name", name],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for name in ("one", "two")]
+        for process in builds:
+            self.assertEqual(process.wait(), 0, process.stderr.read())
+            process.stderr.close()
+        self.assertEqual({t["name"] for t in json.loads(check("inspect", route, "--json"))["traverses"]}, {"one", "two"})
+
     def test_options_without_effect_are_refused(self):
         build = ("build", self.walks.reference, "-o", self.folder / "a.db")
         localise = ("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / "run")
