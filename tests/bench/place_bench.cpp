@@ -96,7 +96,7 @@ void cost_matrix_scalar(benchmark::State& state) {
   for (auto _ : state) {
     place::kernels::absolute_difference_scalar({walks.query.pixels.data(), walks.query.size()},
                                                {walks.reference.pixels.data(), walks.reference.size()},
-                                               kPixels, {1, sums.data(), walks.reference.size()});
+                                               {kPixels, kPixels}, {1, sums.data(), walks.reference.size()});
     benchmark::DoNotOptimize(sums.data());
   }
   walks.report(state);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "place/match/cost_matrix.hpp"
+#include "place/match/costs.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,13 @@
 #include "match/second_level_cache.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include <vo/base/parallel.hpp>
 #include <vo/image/patch_normalisation.hpp>
@@ -23,73 +29,106 @@ std::size_t band_queries(std::size_t query_bytes) {
   return std::max<std::size_t>(1, second_level_cache() / 2 / query_bytes);
 }
 
-/// Columns [first, first + width) of every image, `variants` times with the first column one further on.
-vo::ImageStack columns_of(const vo::ImageStack& images, int first, int width, int variants) {
-  vo::ImageStack cut =
-      vo::make_image_stack(width, images.height, images.size() * static_cast<std::size_t>(variants));
-  vo::parallel_for(cut.size(), [&](std::size_t i) {
-    const std::span<const std::uint8_t> from = images[i / static_cast<std::size_t>(variants)];
-    const int shift = first + static_cast<int>(i % static_cast<std::size_t>(variants));
-    for (int y = 0; y < images.height; ++y) {
-      std::copy_n(from.begin() + y * images.width + shift, width, cut[i].begin() + y * width);
+/// Each image column after column, so that neighbouring columns of it are bytes in a row.
+vo::ImageStack turned(const vo::ImageStack& images) {
+  vo::ImageStack out = vo::make_image_stack(images.height, images.width, images.size());
+  const auto width = static_cast<std::size_t>(images.width), height = static_cast<std::size_t>(images.height);
+  vo::parallel_for(images.size(), [&](std::size_t i) {
+    const std::span<const std::uint8_t> from = images[i];
+    const std::span<std::uint8_t> to = out[i];
+    for (std::size_t y = 0; y < height; ++y) {
+      for (std::size_t x = 0; x < width; ++x) to[x * height + y] = from[y * width + x];
     }
   });
-  return cut;
+  return out;
+}
+
+/// The mean sum of absolute differences between different images, of up to 64 evenly spaced ones.
+double mean_difference(const vo::ImageStack& images) {
+  constexpr std::size_t kSample = 64;
+  const std::size_t count = std::min(kSample, images.size()), size = images.image_size();
+  if (count < 2) return 0;
+  vo::ImageStack sample = vo::make_image_stack(images.width, images.height, count);
+  for (std::size_t i = 0; i < count; ++i)
+    std::ranges::copy(images[i * images.size() / count], sample[i].begin());
+  std::vector<float> sums(count * count);
+  const kernels::ByteImages all{sample.pixels.data(), count};
+  kernels::absolute_difference()(all, all, {size, size}, {1, sums.data(), count});
+  double sum = 0;  // that of an image with itself is 0
+  for (const float of_pair : sums) sum += static_cast<double>(of_pair);
+  return sum / static_cast<double>(count * (count - 1));
 }
 
 }  // namespace
 
 ThumbnailCosts::ThumbnailCosts(const vo::ImageStack& queries, const vo::ImageStack& references,
                                const CostOptions& options)
-    : queries_(queries.size()), whole_(&queries), whole_references_(&references) {
+    : queries_(&queries), references_(&references) {
   if (queries.width != references.width || queries.height != references.height) {
     throw std::invalid_argument("cost_matrix: query and reference descriptors differ in size");
   }
-  const int shift = options.max_shift_px;
-  if (shift == 0) return;
-  if (shift < 0 || 2 * shift >= queries.width) {
-    throw std::invalid_argument("cost_matrix: 0 <= 2 * max_shift_px < width expected");
+  const int most = options.max_shift_px;
+  if (most == 0) return;
+  if (most < 0 || most >= queries.width) {
+    throw std::invalid_argument("cost_matrix: 0 <= max_shift_px < width expected");
   }
-  variants_ = 2 * static_cast<std::size_t>(shift) + 1;
-  const int width = queries.width - 2 * shift;
-  cropped_ = columns_of(references, shift, width, 1);
-  shifted_ = columns_of(queries, 0, width, 2 * shift + 1);
+  turned_queries_ = turned(queries);
+  turned_references_ = turned(references);
+  const double centre = mean_difference(references);
+  for (int shift = -most; shift <= most; ++shift) {
+    const int columns = queries.width - std::abs(shift);
+    const double root = std::sqrt(static_cast<double>(columns) / queries.width);
+    shifts_.push_back({.query_column = static_cast<std::size_t>(std::max(0, shift)),
+                       .reference_column = static_cast<std::size_t>(std::max(0, -shift)),
+                       .columns = static_cast<std::size_t>(columns),
+                       .factor = static_cast<float>(1 / root),
+                       .term = static_cast<float>(centre * (1 - root))});
+  }
 }
 
 float ThumbnailCosts::unit() const {
-  return 1.0F /
-         (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(reference_images().image_size()));
+  return 1.0F / (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(references_->image_size()));
 }
 
 void ThumbnailCosts::compute(const Costs& block) const {
   if (block.queries == 0 || block.references == 0) return;
-  const std::size_t pixels = reference_images().image_size();
+  const std::size_t pixels = references_->image_size(),
+                    height = static_cast<std::size_t>(references_->height);
   const kernels::AbsoluteDifferenceKernel kernel = kernels::absolute_difference();
   const float scale = unit();
-  const std::uint8_t* query_bytes = query_images().pixels.data() + block.first_query * variants_ * pixels;
-  const std::uint8_t* reference_bytes = reference_images().pixels.data() + block.first_reference * pixels;
+  const vo::ImageStack &queries = shifts_.empty() ? *queries_ : turned_queries_,
+                       &references = shifts_.empty() ? *references_ : turned_references_;
+  const std::uint8_t* query_bytes = queries.pixels.data() + block.first_query * pixels;
+  const std::uint8_t* reference_bytes = references.pixels.data() + block.first_reference * pixels;
   // Bands of about one size, a multiple of what kernels take together.
   constexpr std::size_t kTogether = 12;
-  const std::size_t bands = blocks_of(band_queries(variants_ * pixels), block.queries);
+  const std::size_t bands = blocks_of(band_queries(pixels), block.queries);
   const std::size_t band = blocks_of(kTogether, blocks_of(bands, block.queries)) * kTogether;
   const std::size_t columns = blocks_of(kBlockReferences, block.references);
   vo::parallel_for(blocks_of(band, block.queries) * columns, [&](std::size_t tile) {
     const std::size_t q = tile / columns * band, r = tile % columns * kBlockReferences;
     const std::size_t tall = std::min(band, block.queries - q),
                       wide = std::min(kBlockReferences, block.references - r);
-    const kernels::ByteImages query{query_bytes + q * variants_ * pixels, tall * variants_};
-    const kernels::ByteImages reference{reference_bytes + r * pixels, wide};
     float* const out = block.values + q * block.stride + r;
-    if (variants_ == 1) return kernel(query, reference, pixels, {scale, out, block.stride});
-    std::vector<float> costs(tall * variants_ * wide);
-    kernel(query, reference, pixels, {scale, costs.data(), wide});
+    if (shifts_.empty()) {
+      kernel({query_bytes + q * pixels, tall}, {reference_bytes + r * pixels, wide}, {pixels, pixels},
+             {scale, out, block.stride});
+      return;
+    }
+    std::vector<float> sums(tall * wide), least(tall * wide, std::numeric_limits<float>::max());
+    for (const Shift& shift : shifts_) {
+      kernel({query_bytes + q * pixels + shift.query_column * height, tall},
+             {reference_bytes + r * pixels + shift.reference_column * height, wide},
+             {shift.columns * height, pixels}, {1, sums.data(), wide});
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        const float cost = sums[i] * shift.factor + shift.term;
+        least[i] = cost < least[i] ? cost : least[i];
+      }
+    }
     for (std::size_t i = 0; i < tall; ++i) {
-      float* const least = out + i * block.stride;
-      const float* variant = costs.data() + i * variants_ * wide;
-      std::copy_n(variant, wide, least);
-      for (std::size_t v = 1; v < variants_; ++v) {
-        variant += wide;
-        for (std::size_t j = 0; j < wide; ++j) least[j] = variant[j] < least[j] ? variant[j] : least[j];
+      for (std::size_t j = 0; j < wide; ++j) {
+        const auto whole = static_cast<std::int32_t>(least[i * wide + j] + 0.5F);
+        out[i * block.stride + j] = static_cast<float>(whole) * scale;
       }
     }
   });

@@ -96,7 +96,8 @@ CostMatrix difference_matrix(const vo::ImageStack& queries, const vo::ImageStack
   vo::parallel_for(queries.size(), [&](std::size_t q) {
     const std::span<float> row = matrix.row(q);
     kernels::absolute_difference()({queries[q].data(), 1}, {references.pixels.data(), references.size()},
-                                   references.image_size(), {1, row.data(), row.size()});
+                                   {references.image_size(), references.image_size()},
+                                   {1, row.data(), row.size()});
     for (float& cost : row) cost /= divisor;
   });
   return matrix;

@@ -3,6 +3,7 @@
 #include "place/match/costs.hpp"
 
 #include <cstddef>
+#include <vector>
 
 #include <vo/image/image_stack.hpp>
 
@@ -10,47 +11,52 @@ namespace place {
 
 /// Settings of `cost_matrix`.
 struct CostOptions {
-  /// Pixels of the descriptor. A pair's cost is the least over the query moved by up to so many to either
-  /// side, for walkers who look a little to the side; 0 compares it as it is. Every shift is judged on the
-  /// same part of the reference, that which all of them cover, so that none has an advantage; the outer
-  /// columns do not count.
+  /// Pixels of the descriptor, less than it is wide. A pair's cost is the least over the query moved by up to
+  /// so many to either side, for walkers who look a little to the side; 0 compares it as it is.
   int max_shift_px = 0;
 };
 
-/// Mean absolute differences of patch-normalised descriptors, see `cost_matrix`.
+/// Mean absolute difference of patch-normalised descriptors, in standard deviations of a patch (SSS 3.1
+/// and 3.4; SeqSLAM's image difference). Sums are exact integers, so every instruction set, block and number
+/// of threads gives the same bytes.
+///
+/// With a shift each is judged on its own overlap, of a share w = 1 - |s| / width of the picture. The mean d
+/// over fewer pixels is small by chance more often, so how far it lies from c, the mean difference of places
+/// that have nothing to do with each other, counts sqrt(w) times, by which its spread is larger:
+///
+///   cost = min over s of c + (d - c) sqrt(w)
+///
+/// c is the mean over pairs of up to 64 references, evenly spaced. With the sum D of differences over the
+/// overlap and n pixels in a picture that is D / sqrt(w) + n c (1 - sqrt(w)) units of `unit()`, worked out in
+/// float and rounded to a whole number, halves up; at a shift of 0 it is D as it is.
 class ThumbnailCosts final : public CostSource {
  public:
   /// The stacks are bytes of `vo::patch_normalise`, of the same width and height, and must outlive this.
-  /// Throws `std::invalid_argument` if the sizes differ or the shift leaves no column. With a shift, copies
-  /// the references and 2 * max_shift_px + 1 times the queries.
+  /// Throws `std::invalid_argument` if the sizes differ or the shift leaves no column. With a shift, keeps a
+  /// copy of both.
   ThumbnailCosts(const vo::ImageStack& queries, const vo::ImageStack& references,
                  const CostOptions& options = {});
 
-  [[nodiscard]] std::size_t queries() const override { return queries_; }
-  [[nodiscard]] std::size_t references() const override { return reference_images().size(); }
+  [[nodiscard]] std::size_t queries() const override { return queries_->size(); }
+  [[nodiscard]] std::size_t references() const override { return references_->size(); }
   [[nodiscard]] float unit() const override;
+  /// O(queries * references * pixels * (2 * shift + 1)).
   void compute(const Costs& block) const override;
 
  private:
-  [[nodiscard]] const vo::ImageStack& query_images() const { return variants_ > 1 ? shifted_ : *whole_; }
-  [[nodiscard]] const vo::ImageStack& reference_images() const {
-    return variants_ > 1 ? cropped_ : *whole_references_;
-  }
+  /// A shift: which columns of the query lie on which of the reference, and how their sum becomes a cost.
+  struct Shift {
+    std::size_t query_column, reference_column, columns;
+    float factor, term;
+  };
 
-  std::size_t queries_;
-  std::size_t variants_ = 1;  ///< of each query, one after another
-  const vo::ImageStack* whole_;
-  const vo::ImageStack* whole_references_;
-  vo::ImageStack shifted_, cropped_;
+  const vo::ImageStack* queries_;
+  const vo::ImageStack* references_;
+  vo::ImageStack turned_queries_, turned_references_;  ///< column after column, where there are shifts
+  std::vector<Shift> shifts_;
 };
 
-/// Mean absolute difference of patch-normalised descriptors, in standard deviations of a patch (SSS 3.1
-/// and 3.4; SeqSLAM's image difference). Sums are exact integers, so every instruction set gives the same
-/// bytes.
-///
-/// Both stacks: bytes of `vo::patch_normalise`, of the same width and height. Throws `std::invalid_argument`
-/// if the sizes differ or the shift leaves no column. O(queries * references * pixels * (2 * shift + 1)), in
-/// parallel.
+/// All of `ThumbnailCosts`.
 CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
                        const CostOptions& options = {});
 

@@ -14,7 +14,7 @@ namespace place {
 
 /// Settings of `search_streamed`.
 struct StreamedSearchOptions {
-  CostOptions cost;  ///< of thumbnails
+  CostOptions cost;  ///< of images; other sources have their own
   ContrastEnhancementOptions enhancement;
   SequenceSearchOptions search;
   /// Bytes of costs kept between the two passes, 2 for each; the others are worked out twice.
@@ -32,13 +32,14 @@ struct MatrixCallbacks {
 /// rounding that `SequenceSearcher` states, and do not depend on `kept_bytes`.
 ///
 /// Enhancement needs all costs before it can give the first, so there are two passes: one surveys, the second
-/// enhances and searches. `callbacks`: those that are there
+/// enhances and searches. `source`: of the costs, whatever the descriptors. `callbacks`: those that are there
 /// are called with each part. Throws `std::invalid_argument` for options that are not valid. Memory beside
 /// the descriptors: kept_bytes at most, a part of 16 MB or 512 references, and what `SequenceSearcher` keeps.
-std::vector<SequenceMatch> search_streamed(const CostSource& costs, const StreamedSearchOptions& options = {},
+std::vector<SequenceMatch> search_streamed(const CostSource& source,
+                                           const StreamedSearchOptions& options = {},
                                            const MatrixCallbacks& callbacks = {});
 
-/// The same of thumbnails, with `options.cost`.
+/// The same of patch-normalised images, see `cost_matrix`.
 std::vector<SequenceMatch> search_streamed(const vo::ImageStack& queries, const vo::ImageStack& references,
                                            const StreamedSearchOptions& options = {},
                                            const MatrixCallbacks& callbacks = {});

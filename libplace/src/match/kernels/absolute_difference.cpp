@@ -2,14 +2,14 @@
 
 namespace place::kernels {
 
-void absolute_difference_scalar(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_scalar(ByteImages queries, ByteImages references, ImageSize size,
                                 const ScaledSums& sums) {
   for (std::size_t i = 0; i < queries.count; ++i) {
-    const std::uint8_t* query = queries.bytes + i * size;
+    const std::uint8_t* query = queries.bytes + i * size.stride;
     for (std::size_t j = 0; j < references.count; ++j) {
-      const std::uint8_t* reference = references.bytes + j * size;
+      const std::uint8_t* reference = references.bytes + j * size.stride;
       std::int32_t sum = 0;
-      for (std::size_t k = 0; k < size; ++k) {
+      for (std::size_t k = 0; k < size.bytes; ++k) {
         sum += query[k] > reference[k] ? query[k] - reference[k] : reference[k] - query[k];
       }
       sums.values[i * sums.stride + j] = static_cast<float>(sum) * sums.scale;

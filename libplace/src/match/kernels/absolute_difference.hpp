@@ -5,10 +5,17 @@
 
 namespace place::kernels {
 
-/// Images of `size` bytes, one after another.
+/// Images, one after another.
 struct ByteImages {
   const std::uint8_t* bytes;
   std::size_t count;
+};
+
+/// What of images is compared: `bytes` of each from its first on, of which `stride` lie between two images'
+/// first ones.
+struct ImageSize {
+  std::size_t bytes;
+  std::size_t stride;
 };
 
 /// Where costs go, query by query: scale * sum for query i and reference j to values[i * stride + j].
@@ -18,26 +25,26 @@ struct ScaledSums {
   std::size_t stride;
 };
 
-/// sums of |queries[i * size + k] - references[j * size + k]| over k < size. Exact integers until the two
-/// roundings of `float(sum) * scale`. `size` < 2^23, so that a sum fits 31 bits; stride >= references.count.
-/// A thread streams the references past the queries, which had best fit half its second-level cache; images
-/// that begin at cache lines are read at up to twice the speed.
-using AbsoluteDifferenceKernel = void (*)(ByteImages queries, ByteImages references, std::size_t size,
+/// sums of |queries[i * stride + k] - references[j * stride + k]| over k < bytes. Exact integers until the
+/// two roundings of `float(sum) * scale`. `bytes` < 2^23, so that a sum fits 31 bits; stride >=
+/// references.count. A thread streams the references past the queries, which had best fit half its
+/// second-level cache; images that begin at cache lines are read at up to twice the speed.
+using AbsoluteDifferenceKernel = void (*)(ByteImages queries, ByteImages references, ImageSize size,
                                           const ScaledSums& sums);
 
 /// The plain loop that the others must equal.
-void absolute_difference_scalar(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_scalar(ByteImages queries, ByteImages references, ImageSize size,
                                 const ScaledSums& sums);
 
 #if defined(__x86_64__)
 /// Needs AVX2.
-void absolute_difference_avx2(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_avx2(ByteImages queries, ByteImages references, ImageSize size,
                               const ScaledSums& sums);
 /// Needs AVX-512 F and BW.
-void absolute_difference_avx512(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_avx512(ByteImages queries, ByteImages references, ImageSize size,
                                 const ScaledSums& sums);
 #elif defined(__aarch64__)
-void absolute_difference_neon(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_neon(ByteImages queries, ByteImages references, ImageSize size,
                               const ScaledSums& sums);
 #endif
 

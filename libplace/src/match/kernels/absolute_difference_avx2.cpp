@@ -37,7 +37,7 @@ struct Avx2 {
 
 }  // namespace
 
-void absolute_difference_avx2(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_avx2(ByteImages queries, ByteImages references, ImageSize size,
                               const ScaledSums& sums) {
   sum_all<Avx2>(queries, references, size, sums);
 }

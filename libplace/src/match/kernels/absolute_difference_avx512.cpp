@@ -61,7 +61,7 @@ struct Avx512 {
 
 }  // namespace
 
-void absolute_difference_avx512(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_avx512(ByteImages queries, ByteImages references, ImageSize size,
                                 const ScaledSums& sums) {
   sum_all<Avx512>(queries, references, size, sums);
 }

@@ -34,7 +34,7 @@ struct Neon {
 
 }  // namespace
 
-void absolute_difference_neon(ByteImages queries, ByteImages references, std::size_t size,
+void absolute_difference_neon(ByteImages queries, ByteImages references, ImageSize size,
                               const ScaledSums& sums) {
   sum_all<Neon>(queries, references, size, sums);
 }

@@ -24,9 +24,9 @@ inline constexpr std::size_t kLine = 64;  ///< bytes of a cache line
 struct Tile {
   const std::uint8_t* queries;
   const std::uint8_t* references;
-  std::size_t size;
+  ImageSize size;
   ScaledSums sums;
-  const std::uint8_t* ahead;  ///< 2 * size bytes to fetch into the first-level cache meanwhile
+  const std::uint8_t* ahead;  ///< 2 * size.bytes to fetch into the first-level cache meanwhile
 };
 
 /// body(0), body(1) ... body(kCount - 1) one after the other: of arrays that are indexed so, every element
@@ -58,14 +58,14 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
   unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
     unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) { sums[i][j] = Lanes::zero(); });
   });
-  const std::size_t size = tile.size;
+  const std::size_t size = tile.size.bytes, stride = tile.size.stride;
   const auto add_all = [&](const auto& load) __attribute__((always_inline)) {
     typename Lanes::Bytes references[kReferences];
     unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) {
-      references[j] = load(tile.references + j * size);
+      references[j] = load(tile.references + j * stride);
     });
     unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
-      typename Lanes::Bytes query = load(tile.queries + i * size);
+      typename Lanes::Bytes query = load(tile.queries + i * stride);
       Lanes::keep_in_register(query);
       unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) {
         sums[i][j] = Lanes::add(sums[i][j], references[j], query);
@@ -94,7 +94,7 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
 /// meanwhile. The next queries are fetched into it, and the next references into the second.
 template <class Lanes, std::size_t kReferences>
 inline void sum_panel(Tile panel, std::size_t queries, std::size_t columns) {
-  const std::size_t bytes = columns * kReferences * panel.size;
+  const std::size_t stride = panel.size.stride, bytes = columns * kReferences * stride;
   const std::uint8_t* next_references = panel.references + bytes;
   const std::size_t share = bytes * Lanes::kTileQueries / queries + kLine;
   std::size_t fetched = 0;
@@ -102,13 +102,13 @@ inline void sum_panel(Tile panel, std::size_t queries, std::size_t columns) {
     for (const std::size_t end = std::min(bytes, fetched + share); fetched < end; fetched += kLine)
       __builtin_prefetch(next_references + fetched, 0, 2);
     Tile tile = panel;
-    tile.queries += query * panel.size;
+    tile.queries += query * stride;
     tile.sums.values += query * panel.sums.stride;
-    const std::uint8_t* next_queries = tile.queries + kQueries * panel.size;
+    const std::uint8_t* next_queries = tile.queries + kQueries * stride;
     for (std::size_t column = 0; column < columns; ++column) {
-      tile.ahead = 2 * column < kQueries ? next_queries + 2 * column * panel.size : tile.queries;
+      tile.ahead = 2 * column < kQueries ? next_queries + 2 * column * stride : tile.queries;
       sum_tile<Lanes, kQueries, kReferences>(tile);
-      tile.references += kReferences * panel.size;
+      tile.references += kReferences * stride;
       tile.sums.values += kReferences;
     }
   };
@@ -123,16 +123,16 @@ inline void sum_panel(Tile panel, std::size_t queries, std::size_t columns) {
 }
 
 template <class Lanes>
-inline void sum_all(ByteImages queries, ByteImages references, std::size_t size, const ScaledSums& sums) {
+inline void sum_all(ByteImages queries, ByteImages references, ImageSize size, const ScaledSums& sums) {
   if (queries.count == 0) return;
-  if (size < Lanes::kBytes) return absolute_difference_scalar(queries, references, size, sums);
+  if (size.bytes < Lanes::kBytes) return absolute_difference_scalar(queries, references, size, sums);
   constexpr std::size_t kPanelBytes = 1U << 14U;  // beside two tiles' queries in 32 kB or more
   constexpr std::size_t kReferences = Lanes::kTileReferences;
-  const std::size_t most = std::max<std::size_t>(1, kPanelBytes / (kReferences * size));
+  const std::size_t most = std::max<std::size_t>(1, kPanelBytes / (kReferences * size.bytes));
   std::size_t j = 0;
   const auto panel = [&] {
     return Tile{queries.bytes,
-                references.bytes + j * size,
+                references.bytes + j * size.stride,
                 size,
                 {sums.scale, sums.values + j, sums.stride},
                 queries.bytes};

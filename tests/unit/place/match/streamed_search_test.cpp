@@ -1,3 +1,4 @@
+#include "support/random_columns.hpp"
 #include "support/random_images.hpp"
 
 #include <cstdint>
@@ -7,12 +8,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <place/match/shifted_cosine.hpp>
 #include <place/match/streamed_search.hpp>
 #include <vo/base/parallel.hpp>
 
 namespace {
 
 using place::Enhancement;
+using test_support::random_columns;
 using test_support::random_images;
 
 constexpr Enhancement kMethods[] = {Enhancement::kNone, Enhancement::kLocal, Enhancement::kStandardise};
@@ -74,6 +77,31 @@ TEST(SearchStreamed, IsTheThreeStagesOneAfterTheOther) {
   }
 }
 
+TEST(SearchStreamed, TakesCostsOfAnySource) {
+  static constexpr std::size_t kQueries = 60, kReferences = 900, kFirst = 700;
+  const auto references = random_columns(8, 4, kReferences, 63, 1);
+  auto queries = random_columns(8, 4, kQueries, 10, 2);  // the stretch again, a little off
+  for (std::size_t i = 0; i < queries.values.size(); ++i) {
+    const int there = references.values[kFirst * references.descriptor_size() + i];
+    queries.values[i] = static_cast<std::int8_t>((3 * there + queries.values[i]) / 4);
+  }
+  const place::ShiftedCosine source(queries, references);
+  auto matrix = cost_matrix(source);
+  const place::StreamedSearchOptions options;
+  place::enhance_contrast(matrix, options.enhancement);
+  const auto expected = place::search_sequences(matrix, options.search);
+  for (const std::size_t kept : {std::size_t{0}, std::size_t{1} << 20U}) {
+    place::StreamedSearchOptions keeping = options;
+    keeping.kept_bytes = kept;
+    const auto found = place::search_streamed(source, keeping);
+    for (std::size_t q = 0; q < kQueries; ++q) {
+      EXPECT_EQ(found[q].reference, expected[q].reference) << q;
+      EXPECT_NEAR(found[q].cost, expected[q].cost, 1e-6) << q;
+    }
+    EXPECT_EQ(found[30].reference, kFirst + 30);
+  }
+}
+
 TEST(SearchStreamed, GivesLinesAllThatTheyReach) {
   // Lines that reach just as far as a part's margins are aligned, and a little further.
   const Walks walks(130, 8192 + 300, 8150);
@@ -107,7 +135,7 @@ TEST(SearchStreamed, RefusesOptionsThatAreNotValid) {
   const auto images = random_images(8, 4, 3, 1);
   EXPECT_THROW(place::search_streamed(images, images, {.search = {.length = 0}}), std::invalid_argument);
   EXPECT_THROW(place::search_streamed(images, images, {.enhancement = {.window = 1}}), std::invalid_argument);
-  EXPECT_THROW(place::search_streamed(images, images, {.cost = {.max_shift_px = 4}}), std::invalid_argument);
+  EXPECT_THROW(place::search_streamed(images, images, {.cost = {.max_shift_px = 8}}), std::invalid_argument);
 }
 
 TEST(SearchStreamed, IsTheSameForAnyThreadCount) {

@@ -3,6 +3,7 @@
 #include "support/random_images.hpp"
 
 #include <cstdlib>
+#include <tuple>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -46,11 +47,39 @@ TEST(AbsoluteDifferenceKernels, EqualTheSumForAnySizeAndCount) {
         }
         for (const auto kernel : kernels()) {
           std::vector<float> sums(queries * stride, kUntouched);
-          kernel({all_queries.pixels.data(), queries}, {all_references.pixels.data(), references}, size,
-                 {0.1F, sums.data(), stride});
+          kernel({all_queries.pixels.data(), queries}, {all_references.pixels.data(), references},
+                 {size, size}, {0.1F, sums.data(), stride});
           ASSERT_EQ(sums, expected);
         }
       }
+    }
+  }
+}
+
+/// Images of 200 bytes of which some in the middle are compared, others for queries than for references.
+TEST(AbsoluteDifferenceKernels, CompareAPartOfImages) {
+  constexpr std::size_t kStride = 200;
+  const auto queries = random_images(static_cast<int>(kStride), 1, 13, 1);
+  const auto references = random_images(static_cast<int>(kStride), 1, 9, 2);
+  for (const auto& [query_from, reference_from, size] :
+       {std::tuple<std::size_t, std::size_t, std::size_t>{0, 64, 136},
+        {70, 0, 130},
+        {33, 34, 1},
+        {100, 36, 100}}) {
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < 13; ++i) {
+      for (std::size_t j = 0; j < 9; ++j) {
+        int sum = 0;
+        for (std::size_t k = 0; k < size; ++k)
+          sum += std::abs(queries[i][query_from + k] - references[j][reference_from + k]);
+        expected.push_back(static_cast<float>(sum));
+      }
+    }
+    for (const auto kernel : kernels()) {
+      std::vector<float> sums(expected.size());
+      kernel({queries.pixels.data() + query_from, 13}, {references.pixels.data() + reference_from, 9},
+             {size, kStride}, {1, sums.data(), 9});
+      ASSERT_EQ(sums, expected);
     }
   }
 }
@@ -61,9 +90,10 @@ TEST(AbsoluteDifferenceKernels, DoNotOverflow) {
   const std::vector<std::uint8_t> bright(kSize, 255), dark(7 * kSize, 0);
   for (const auto kernel : kernels()) {
     std::vector<float> sums(7);
-    kernel({bright.data(), 1}, {dark.data(), 7}, kSize, {1, sums.data(), 7});
+    kernel({bright.data(), 1}, {dark.data(), 7}, {kSize, kSize}, {1, sums.data(), 7});
     EXPECT_THAT(sums, Each(25500765.0F));
-    kernel({dark.data(), 7}, {bright.data(), 1}, kSize, {1, sums.data(), 1});  // and the other way round
+    kernel({dark.data(), 7}, {bright.data(), 1}, {kSize, kSize},
+           {1, sums.data(), 1});  // and the other way round
     EXPECT_THAT(sums, Each(25500765.0F));
   }
 }
