@@ -1,5 +1,6 @@
 #include "match/kernels/absolute_difference.hpp"
 #include "match/kernels/dot_product.hpp"
+#include "match/kernels/float_sums.hpp"
 
 #include <cstdio>
 #include <random>
@@ -99,11 +100,44 @@ int wrong_dot_products() {
   return wrong;
 }
 
+int wrong_float_sums() {
+  constexpr std::size_t kSize = 100;
+  const FloatKernels &neon = neon_float_kernels(), &scalar = scalar_float_kernels();
+  std::normal_distribution<float> normal;
+  std::vector<float> queries(kSize * neon.queries), references(kSize * neon.references);
+  for (auto* rows : {&queries, &references}) {
+    for (float& value : *rows) value = normal(generator);
+  }
+  int wrong = 0;
+  for (const Term term : {Term::kProduct, Term::kAbsoluteDifference, Term::kSquaredDifference}) {
+    std::vector<float> sums(neon.queries * neon.references), costs(neon.references);
+    neon.add(term, {queries.data(), references.data(), kSize, sums.data()});
+    neon.costs({sums.data(), nullptr, 0.3F, false, 64, costs.data()});
+    for (std::size_t i = 0; i < neon.queries; ++i) {
+      for (std::size_t j = 0; j < neon.references; ++j) {
+        std::vector<float> query, reference;
+        for (std::size_t k = 0; k < kSize; ++k) {
+          query.push_back(queries[k * neon.queries + i]);
+          reference.push_back(references[k * neon.references + j]);
+        }
+        float sum = 0, cost = 0;
+        scalar.add(term, {query.data(), reference.data(), kSize, &sum});
+        scalar.costs({&sum, nullptr, 0.3F, false, 64, &cost});
+        wrong += sum != sums[i * neon.references + j];
+        wrong += i == 0 && cost != costs[j];
+      }
+    }
+  }
+  return wrong;
+}
+
 }  // namespace
 
 /// The NEON kernels against the plain loops; cross-compiled, so without GoogleTest.
 int main() {
-  const int differences = wrong_absolute_differences(), products = wrong_dot_products();
-  std::printf("wrong: %d blocks of absolute differences, %d dot products\n", differences, products);
-  return differences + products == 0 ? 0 : 1;
+  const int differences = wrong_absolute_differences(), products = wrong_dot_products(),
+            floats = wrong_float_sums();
+  std::printf("wrong: %d blocks of absolute differences, %d dot products, %d sums of floats\n", differences,
+              products, floats);
+  return differences + products + floats == 0 ? 0 : 1;
 }

@@ -1,7 +1,7 @@
 # Compiles the kernels for 64-bit Arm and runs their test on an emulated processor.
 #   cmake -DCOMPILER=<cross compiler> -DEMULATOR=<of the processor> -DROOT=<the project's> -DWORK=<folder to use> -P run.cmake
 file(MAKE_DIRECTORY ${WORK})
-foreach(kernel absolute_difference dot_product)
+foreach(kernel absolute_difference dot_product float_sums)
   list(APPEND kernels ${ROOT}/libplace/src/match/kernels/${kernel}.cpp ${ROOT}/libplace/src/match/kernels/${kernel}_neon.cpp)
 endforeach()
 execute_process(

@@ -1,8 +1,11 @@
 #include "place/match/float_costs.hpp"
 
+#include "match/kernels/float_sums.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <span>
 #include <stdexcept>
 
@@ -11,75 +14,112 @@
 namespace place {
 namespace {
 
-/// Eight running sums, which compilers turn into vectors.
-template <typename Term>
-float sum_over(std::span<const float> a, std::span<const float> b, const Term& term) {
-  constexpr std::size_t kLanes = 8;
-  std::array<float, kLanes> sums{};
-  std::size_t i = 0;
-  for (; i + kLanes <= a.size(); i += kLanes)
-    for (std::size_t k = 0; k < kLanes; ++k) sums[k] += term(a[i + k], b[i + k]);
-  for (std::size_t k = 0; i + k < a.size(); ++k) sums[k] += term(a[i + k], b[i + k]);
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+constexpr std::size_t parts(std::size_t count, std::size_t size) {
+  return (count + size - 1) / size;
 }
 
-float product(float a, float b) {
-  return a * b;
+/// Rows [first, first + count) interleaved, with zeros for those that are missing of `lanes`.
+void interleave(const FloatRows& rows, std::size_t first, std::size_t count, std::size_t lanes, float* to) {
+  std::fill_n(to, lanes * rows.width, 0.0F);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::span<const float> row = rows[first + i];
+    for (std::size_t k = 0; k < row.size(); ++k) to[k * lanes + i] = row[k];
+  }
 }
 
-std::vector<float> lengths_of(const FloatRows& rows) {
-  std::vector<float> lengths(rows.size());
-  for (std::size_t i = 0; i < lengths.size(); ++i)
-    lengths[i] = std::sqrt(sum_over(rows[i], rows[i], product));
+/// Of each row: its length as the metric sees it.
+std::vector<double> lengths_of(const FloatRows& rows, Metric metric) {
+  std::vector<double> lengths(rows.size());
+  vo::parallel_for(rows.size(), [&](std::size_t i) {
+    double sum = 0, squares = 0;
+    for (const float value : rows[i]) {
+      sum += std::abs(static_cast<double>(value));
+      squares += static_cast<double>(value) * static_cast<double>(value);
+    }
+    constexpr double kMost =
+        std::numeric_limits<float>::max() / 8.0;  // the difference of two has four times it
+    lengths[i] = squares < kMost
+                     ? (metric == Metric::kL1 ? sum / static_cast<double>(rows.width) : std::sqrt(squares))
+                     : std::numeric_limits<double>::infinity();
+  });
   return lengths;
 }
 
-float largest_of(const FloatRows& rows) {
-  float largest = 0;
-  for (const float value : rows.values) largest = std::max(largest, std::abs(value));
-  return largest;
+double largest_of(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::ranges::max_element(values);
 }
 
 }  // namespace
 
 FloatCosts::FloatCosts(const FloatRows& queries, const FloatRows& references, Metric metric)
-    : queries_(queries), references_(references), metric_(metric) {
-  if (queries.width != references.width)
+    : references_(references), metric_(metric), query_count_(queries.size()) {
+  if (queries.width != references.width) {
     throw std::invalid_argument("FloatCosts: query and reference descriptors differ in size");
-  float largest_cost = 2;
-  if (metric == Metric::kCosine) {
-    query_lengths_ = lengths_of(queries);
-    reference_lengths_ = lengths_of(references);
-  } else {
-    largest_cost = largest_of(queries) + largest_of(references);
-    if (metric == Metric::kL2) largest_cost *= std::sqrt(static_cast<float>(queries.width));
   }
-  // The power of two of which no cost is more than 2^16 multiples, which fit what is kept of a cost.
-  constexpr int kBits = 16;
-  if (largest_cost > 0) unit_ = std::exp2(std::ceil(std::log2(largest_cost)) - static_cast<float>(kBits));
+  const std::vector<double> of_queries = lengths_of(queries, metric),
+                            of_references = lengths_of(references, metric);
+  const double furthest = largest_of(of_queries) + largest_of(of_references);
+  if (!std::isfinite(furthest)) {
+    throw std::invalid_argument("FloatCosts: finite values, whose squares add up within a float, expected");
+  }
+  constexpr int kBits = 15;
+  int exponent = 1;  // no cosine costs more than 2^1
+  if (metric != Metric::kCosine) std::frexp(furthest, &exponent);
+  units_ = std::ldexp(1.0F, metric == Metric::kCosine ? kBits : std::clamp(kBits - exponent, -100, 100));
+  if (metric == Metric::kCosine) {
+    constexpr double kShortest = 1e-15;  // products of shorter rows may vanish
+    const auto inverse = [](double length) {
+      return length > kShortest ? static_cast<float>(1 / length) : 0.0F;
+    };
+    std::ranges::transform(of_queries, std::back_inserter(query_scales_), inverse);
+    std::ranges::transform(of_references, std::back_inserter(reference_scales_), inverse);
+  }
+  const std::size_t tall = kernels::float_kernels().queries;
+  packed_queries_.resize(parts(query_count_, tall) * tall * queries.width);
+  for (std::size_t first = 0; first < query_count_; first += tall) {
+    interleave(queries, first, std::min(tall, query_count_ - first), tall,
+               packed_queries_.data() + first * queries.width);
+  }
 }
 
 void FloatCosts::compute(const Costs& block) const {
-  const float per_unit = 1 / unit_;
-  vo::parallel_for(block.queries, [&](std::size_t i) {
-    const std::size_t q = block.first_query + i;
-    const std::span<float> row = block.row(i);
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      const std::size_t r = block.first_reference + j;
-      float cost = 0;
-      if (metric_ == Metric::kCosine) {
-        const float lengths = query_lengths_[q] * reference_lengths_[r];
-        cost = 1 - (lengths > 0 ? sum_over(queries_[q], references_[r], product) / lengths : 0);
-      } else if (metric_ == Metric::kL1) {
-        cost = sum_over(queries_[q], references_[r], [](float a, float b) { return std::abs(a - b); }) /
-               static_cast<float>(queries_.width);
-      } else {
-        cost = std::sqrt(
-            sum_over(queries_[q], references_[r], [](float a, float b) { return (a - b) * (a - b); }));
-      }
-      row[j] = std::max(0.0F, std::nearbyint(cost * per_unit)) * unit_;
-    }
+  if (block.queries == 0) return;
+  const std::size_t wide = kernels::float_kernels().references;
+  vo::parallel_for(parts(block.references, wide), [&](std::size_t panel) {
+    const std::size_t first = panel * wide;
+    compute_panel(block, block.first_reference + first, std::min(wide, block.references - first));
   });
+}
+
+/// The costs of a block for its references [first, first + count), a panel at most.
+void FloatCosts::compute_panel(const Costs& block, std::size_t first, std::size_t count) const {
+  const kernels::FloatKernels& kernel = kernels::float_kernels();
+  const std::size_t tall = kernel.queries, wide = kernel.references, width = references_.width;
+  std::vector<float> panel(wide * width), sums(tall * wide), scales(wide), costs(wide);
+  interleave(references_, first, count, wide, panel.data());
+  const bool cosine = metric_ == Metric::kCosine;
+  if (cosine)
+    std::copy_n(reference_scales_.begin() + static_cast<std::ptrdiff_t>(first), count, scales.begin());
+  const kernels::Term term = cosine                   ? kernels::Term::kProduct
+                             : metric_ == Metric::kL1 ? kernels::Term::kAbsoluteDifference
+                                                      : kernels::Term::kSquaredDifference;
+  const float mean = metric_ == Metric::kL1 ? 1 / static_cast<float>(width) : 1.0F;
+  const std::size_t past = block.first_query + block.queries;
+  for (std::size_t tile = block.first_query / tall; tile * tall < past; ++tile) {
+    kernel.add(term, {packed_queries_.data() + tile * tall * width, panel.data(), width, sums.data()});
+    const std::size_t begin = std::max(tile * tall, block.first_query),
+                      end = std::min(past, (tile + 1) * tall);
+    for (std::size_t q = begin; q < end; ++q) {
+      kernel.costs({.sums = sums.data() + (q - tile * tall) * wide,
+                    .reference_scales = cosine ? scales.data() : nullptr,
+                    .query_scale = cosine ? query_scales_[q] : mean,
+                    .root = metric_ == Metric::kL2,
+                    .units = units_,
+                    .costs = costs.data()});
+      std::copy_n(costs.data(), count,
+                  block.values + (q - block.first_query) * block.stride + (first - block.first_reference));
+    }
+  }
 }
 
 }  // namespace place

@@ -4,29 +4,39 @@
 #include "place/describe/float_rows.hpp"
 #include "place/match/costs.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace place {
 
-/// Costs of rows of floats: 1 - cosine (of a row of zeros: 1), the mean absolute difference, or the Euclidean
-/// distance, rounded to whole multiples of `unit`. Sums are in float in a fixed order, so the same for any
-/// block and number of threads.
+/// Costs of descriptors of floats, those of any other model: 1 - cosine, mean absolute difference, or
+/// Euclidean distance. The cosine with a row of zeros (shorter than 1e-15) is 0.
+///
+/// Sums are of floats, term by term in the order of the values, each step rounded to float, so they are the
+/// same for any instruction set, block and number of threads. Costs are rounded to multiples of `unit()`, of
+/// two to the even one: 2^-15 for the cosine; for the others the power of two of which the largest cost that
+/// rows of these lengths can have takes 2^14 to 2^15, by the triangle inequality.
 class FloatCosts final : public CostSource {
  public:
-  /// Both must outlive this. Throws `std::invalid_argument` if their widths differ.
+  /// Rows of one width, finite, kept by reference. Throws `std::invalid_argument` if widths differ, a value
+  /// is not finite, or a row's squares do not add up within a float.
   FloatCosts(const FloatRows& queries, const FloatRows& references, Metric metric);
 
-  [[nodiscard]] std::size_t queries() const override { return queries_.size(); }
+  [[nodiscard]] std::size_t queries() const override { return query_count_; }
   [[nodiscard]] std::size_t references() const override { return references_.size(); }
-  [[nodiscard]] float unit() const override { return unit_; }
+  [[nodiscard]] float unit() const override { return 1 / units_; }
+  /// O(queries * references * width).
   void compute(const Costs& block) const override;
 
  private:
-  const FloatRows& queries_;
+  void compute_panel(const Costs& block, std::size_t first, std::size_t count) const;
+
   const FloatRows& references_;
   Metric metric_;
-  std::vector<float> query_lengths_, reference_lengths_;  ///< of the cosine
-  float unit_ = 1;
+  std::size_t query_count_;
+  float units_;
+  std::vector<float> packed_queries_;                   ///< tile by tile
+  std::vector<float> query_scales_, reference_scales_;  ///< of each row
 };
 
 }  // namespace place

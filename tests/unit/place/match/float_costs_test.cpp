@@ -1,59 +1,118 @@
-#include "place/match/float_costs.hpp"
-
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <place/match/float_costs.hpp>
+#include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 
 namespace {
 
-using place::cost_matrix;
-using place::FloatCosts;
 using place::FloatRows;
 using place::Metric;
+using testing::Each;
 
-TEST(FloatCosts, WorkedExample) {
-  const FloatRows queries{.width = 2, .values = {3, 4, 0, 0}}, references{.width = 2, .values = {4, 3, 3, 4}};
-  const auto costs = [&](Metric metric) {
-    return cost_matrix(FloatCosts(queries, references, metric)).values;
-  };
-  // Rounded to 2^-15 (the cosine is at most 2 of them away from 0), 2^-13 and 2^-12.
-  EXPECT_THAT(costs(Metric::kCosine),
-              testing::Pointwise(testing::FloatNear(2e-5F), std::vector<float>{0.04F, 0, 1, 1}));
-  EXPECT_THAT(costs(Metric::kL1),
-              testing::Pointwise(testing::FloatNear(1e-4F), std::vector<float>{1, 0, 3.5F, 3.5F}));
-  EXPECT_THAT(costs(Metric::kL2),
-              testing::Pointwise(testing::FloatNear(2e-4F), std::vector<float>{std::sqrt(2.0F), 0, 5, 5}));
+constexpr Metric kMetrics[] = {Metric::kCosine, Metric::kL1, Metric::kL2};
+
+FloatRows random_rows(std::size_t width, std::size_t count, std::uint64_t seed) {
+  FloatRows rows = place::make_float_rows(width, count);
+  vo::Rng rng(seed);
+  for (float& value : rows.values) value = static_cast<float>(rng.normal());
+  return rows;
 }
 
-TEST(FloatCosts, AreWholeMultiplesOfTheirUnitAndTheSameInBlocks) {
-  vo::Rng rng(5);
-  FloatRows queries = place::make_float_rows(19, 5), references = place::make_float_rows(19, 7);
-  for (FloatRows* rows : {&queries, &references})
-    for (float& value : rows->values) value = static_cast<float>(rng.uniform(-20, 20));
-  for (const Metric metric : {Metric::kCosine, Metric::kL1, Metric::kL2}) {
-    const FloatCosts source(queries, references, metric);
-    const place::CostMatrix whole = cost_matrix(source);
-    for (const float cost : whole.values) {
-      EXPECT_EQ(cost / source.unit(), std::nearbyint(cost / source.unit()));
-      EXPECT_LE(cost / source.unit(), 65536);
+double defined_cost(std::span<const float> a, std::span<const float> b, Metric metric) {
+  double dot = 0, aa = 0, bb = 0, l1 = 0, l2 = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double x = a[k], y = b[k];
+    dot += x * y, aa += x * x, bb += y * y, l1 += std::abs(x - y), l2 += (x - y) * (x - y);
+  }
+  if (metric == Metric::kL1) return l1 / static_cast<double>(a.size());
+  return metric == Metric::kL2 ? std::sqrt(l2) : 1 - dot / std::sqrt(aa * bb);
+}
+
+TEST(FloatCosts, WorkedExample) {
+  const FloatRows query{.width = 2, .values = {3, 4}};
+  const FloatRows references{.width = 2, .values = {3, 4, -3, -4, 6, 8, 4, -3}};
+  const auto costs = [&](Metric metric) {
+    return cost_matrix(place::FloatCosts(query, references, metric)).values;
+  };
+  // Exact in units of 2^-15 and, as no row is longer than 10, in those of a power of two below 1.
+  EXPECT_THAT(costs(Metric::kCosine), testing::ElementsAre(0, 2, 0, 1));
+  EXPECT_THAT(costs(Metric::kL1), testing::ElementsAre(0, 7, 3.5F, 4));
+  EXPECT_THAT(costs(Metric::kL2),
+              testing::Pointwise(testing::FloatNear(1e-3F), {0.0F, 10.0F, 5.0F, std::sqrt(50.0F)}));
+}
+
+TEST(FloatCosts, EqualTheDefinitionUpToRounding) {
+  for (const std::size_t width : {1, 3, 64, 700}) {
+    const FloatRows queries = random_rows(width, 29, 1), references = random_rows(width, 75, 2);
+    for (const Metric metric : kMetrics) {
+      const place::FloatCosts source(queries, references, metric);
+      const auto matrix = cost_matrix(source);
+      double largest = 0;
+      for (std::size_t q = 0; q < 29; ++q) {
+        for (std::size_t r = 0; r < 75; ++r) {
+          // Half a unit, and as many roundings of a float as there are values, of costs of a few at most.
+          const double expected = defined_cost(queries[q], references[r], metric);
+          const double tolerance =
+              0.5 * source.unit() + 1e-7 * static_cast<double>(width) * std::max(1.0, expected);
+          ASSERT_NEAR(matrix.at(q, r), expected, tolerance) << width;
+          ASSERT_EQ(std::round(matrix.at(q, r) / source.unit()) * source.unit(), matrix.at(q, r));
+          largest = std::max(largest, static_cast<double>(matrix.at(q, r)));
+        }
+      }
+      EXPECT_LE(largest / source.unit(), 1 << 16);  // a cache of 16 bits holds them
     }
-    std::vector<float> values(2 * 3);
-    source.compute({3, 2, 4, 3, values.data(), 3});
-    for (std::size_t q = 0; q < 2; ++q)
-      for (std::size_t r = 0; r < 3; ++r) EXPECT_EQ(values[q * 3 + r], whole.at(3 + q, 4 + r));
   }
 }
 
-TEST(FloatCosts, OfNothingAreNone) {
-  const FloatRows none{.width = 3, .values = {}}, one{.width = 3, .values = {1, 2, 3}};
-  EXPECT_TRUE(cost_matrix(FloatCosts(none, one, Metric::kL2)).values.empty());
-  EXPECT_EQ(cost_matrix(FloatCosts(one, one, Metric::kL1)).values[0], 0);
-  EXPECT_THROW(FloatCosts(one, {.width = 1, .values = {1}}, Metric::kL1), std::invalid_argument);
+TEST(FloatCosts, GiveBlocksOfTheMatrixForAnyThreadCount) {
+  const FloatRows queries = random_rows(40, 53, 1), references = random_rows(40, 150, 2);
+  for (const Metric metric : kMetrics) {
+    const place::FloatCosts source(queries, references, metric);
+    const auto matrix = cost_matrix(source);
+    for (const int threads : {1, 4}) {
+      vo::set_thread_count(threads);
+      std::vector<float> some(20 * 100, -1);
+      const place::Costs block{7, 20, 33, 90, some.data(), 100};
+      source.compute(block);
+      for (std::size_t i = 0; i < 20; ++i) {
+        EXPECT_TRUE(std::ranges::equal(block.row(i), matrix.row(7 + i).subspan(33, 90)));
+        EXPECT_THAT(std::span(some).subspan(i * 100 + 90, 10), Each(-1));
+      }
+    }
+  }
+  vo::set_thread_count(0);
+}
+
+TEST(FloatCosts, OfNothingAndOfZeros) {
+  const FloatRows none = random_rows(4, 0, 1), some = random_rows(4, 3, 1),
+                  zeros = place::make_float_rows(4, 2);
+  for (const Metric metric : kMetrics) {
+    EXPECT_TRUE(cost_matrix(place::FloatCosts(none, some, metric)).values.empty());
+    EXPECT_TRUE(cost_matrix(place::FloatCosts(some, none, metric)).values.empty());
+    const float expected = metric == Metric::kCosine ? 1 : 0;
+    EXPECT_THAT(cost_matrix(place::FloatCosts(zeros, zeros, metric)).values, Each(expected));
+  }
+  EXPECT_THAT(cost_matrix(place::FloatCosts(zeros, some, Metric::kCosine)).values, Each(1.0F));
+}
+
+TEST(FloatCosts, RefuseWhatTheyCannotCompare) {
+  const FloatRows rows = random_rows(4, 3, 1);
+  EXPECT_THROW(place::FloatCosts(rows, random_rows(5, 3, 1), Metric::kL2), std::invalid_argument);
+  for (const float wrong :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e20F}) {
+    FloatRows other = rows;
+    other.values[6] = wrong;
+    EXPECT_THROW(place::FloatCosts(rows, other, Metric::kCosine), std::invalid_argument) << wrong;
+  }
 }
 
 }  // namespace
