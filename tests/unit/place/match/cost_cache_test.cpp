@@ -1,5 +1,6 @@
 #include "match/cost_cache.hpp"
 
+#include "place/match/cost_matrix.hpp"
 #include "support/random_images.hpp"
 
 #include <algorithm>
