@@ -2,12 +2,19 @@
 # The unit tests of the libraries under AddressSanitizer and UndefinedBehaviorSanitizer, those that are quick enough: tests
 # of whole walks take minutes here and are left to the other builds.
 #   bash tests/sanitize.sh [gtest filter]     by default all but the slow ones
+# Only the libraries are instrumented, so the object files of the tests are those of build/release where that is there.
 # One process for each core, at most RETRACE_SANITIZE_S seconds (default 180); what was not reached is no failure.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 slow=MonocularVo.*:SceneTracking.MeasuresTheHeight*:RouteDatabase.AnyDamage*:SearchStreamed.*:FixedLag.IsAsGood*:LocaliserTest.Shrinks*
-cmake --preset asan >/dev/null
+objects=
+if [[ -d build/release/tests ]]; then
+  cmake --preset release -DRETRACE_BUILD_TESTS=ON >/dev/null
+  cmake --build --preset release --target unit_tests
+  objects=$PWD/build/release/tests/CMakeFiles/unit_tests.dir
+fi
+cmake --preset asan -DRETRACE_BUILD_TESTS=ON -DRETRACE_UNIT_TEST_OBJECTS="$objects" >/dev/null
 cmake --build --preset asan --target unit_tests
 
 GTEST_TOTAL_SHARDS=$(nproc)

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "odometry_evaluation_files.hpp"
 #include "report/odometry_report.hpp"
 #include "visual_odometry.hpp"
 
@@ -23,11 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::string_view kProtocol =
-    "Random segments, at whose start the trajectory is put at the true place and heading; errors at "
-    "distances "
-    "truly travelled from there (PVO 5.2). Heading errors are estimate minus truth, clockwise.";
-
 struct EvaluateOdometryOptions {
   CommonOptions common;
   std::string folder;  ///< written by `retrace odometry`
@@ -39,85 +35,39 @@ struct EvaluateOdometryOptions {
   place::OdometryEvaluationOptions evaluation;
 };
 
-/// The truth: poses with times, or else a way.
-struct Truth {
-  std::optional<std::size_t> steps;
-  vo::WalkTruth walk;
-  std::vector<place::WayPoint> way;
-};
-
-std::vector<place::WayPoint> read_way(const vo::CsvTable& table, const std::string& path,
-                                      double scale_m_per_px) {
-  const std::vector<double> x_px = table.numbers("x_px");
-  const std::vector<double> y_px = table.numbers("y_px");
-  std::vector<place::WayPoint> way;
-  bool moves = false;
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    way.push_back({x_px[i] * scale_m_per_px, -y_px[i] * scale_m_per_px});  // down on the map is south
-    moves = moves || x_px[i] != x_px[0] || y_px[i] != y_px[0];
+void print(std::size_t steps, const std::optional<std::size_t>& true_steps,
+           const place::OdometryEvaluation& evaluation) {
+  fmt::print("steps: {}", steps);
+  if (true_steps) fmt::print(", truly {}", *true_steps);
+  if (true_steps && *true_steps > 0)
+    fmt::print(", error {:.2f} %", place::step_error_pct(steps, *true_steps));
+  fmt::print("\n{:>7} {:>12} {:>16} {:>18}\n", "at m", "measurements", "position m", "heading deg");
+  for (const place::OdometryErrors& errors : evaluation.errors) {
+    if (errors.count == 0) continue;
+    fmt::print("{:>7} {:>12} {:>16} {:>18}\n", errors.at_m, errors.count,
+               fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
+               fmt::format("{:.2f} +- {:.2f}", errors.heading_mean_deg, errors.heading_sd_deg));
   }
-  if (!moves) throw vo::Error(path, "is no way", "two points or more of different places");
-  return way;
 }
 
-Truth read_truth(const EvaluateOdometryOptions& options) {
-  const vo::CsvTable table = vo::CsvTable::read(options.truth);
-  Truth truth;
-  if (table.has("x_px")) {
-    if (!options.map_scale_m_per_px)
-      throw vo::Error(options.truth, "is a way on a map",
-                      "--map-scale-m-per-px, the metres of one of its pixels");
-    truth.way = read_way(table, options.truth, *options.map_scale_m_per_px);
-  } else {
-    if (options.map_scale_m_per_px)
-      throw vo::Error(options.truth, "has no column 'x_px'", "a way on a map, with --map-scale-m-per-px");
-    truth.walk = vo::read_truth(options.truth);
-    if (!truth.walk.steps.empty()) truth.steps = static_cast<std::size_t>(truth.walk.steps.back());
-  }
-  if (options.true_steps) truth.steps = options.true_steps;
-  return truth;
-}
-
-ordered_json metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
-                          const place::OdometryEvaluation& evaluation,
-                          const place::OdometryEvaluationOptions& options) {
-  ordered_json json{{"steps_estimated", steps},     {"steps_true", nullptr},
-                    {"step_error_pct", nullptr},    {"distance_m", evaluation.distance_m},
-                    {"segments", options.segments}, {"segment_m", evaluation.segment_m},
-                    {"seed", options.seed}};
-  if (true_steps) json["steps_true"] = *true_steps;
-  if (true_steps && *true_steps > 0) json["step_error_pct"] = place::step_error_pct(steps, *true_steps);
-  const auto add = [&](const char* name, double place::OdometryErrors::*value) {
-    for (const place::OdometryErrors& errors : evaluation.errors)
-      json[name][fmt::format("{}", errors.at_m)] = errors.count > 0 ? ordered_json(errors.*value) : nullptr;
-  };
-  add("euclidean_error_m", &place::OdometryErrors::euclidean_mean_m);
-  add("euclidean_error_sd_m", &place::OdometryErrors::euclidean_sd_m);
-  add("heading_error_deg", &place::OdometryErrors::heading_mean_deg);
-  add("heading_error_sd_deg", &place::OdometryErrors::heading_sd_deg);
-  add("heading_absolute_error_deg", &place::OdometryErrors::heading_abs_mean_deg);
-  for (const place::OdometryErrors& errors : evaluation.errors)
-    json["measurements"][fmt::format("{}", errors.at_m)] = errors.count;
-  json["protocol"] = kProtocol;
-  return json;
+void evaluate_kitti(const EvaluateOdometryOptions& options) {
+  const fs::path folder = options.folder;
+  const ordered_json metrics = kitti_metrics(folder, options.kitti_poses);
+  vo::write_file(folder / "kitti_metrics.json", metrics.dump(2) + "\n");
+  if (options.common.json)
+    fmt::print("{}\n", metrics.dump(2));
+  else
+    print_kitti_metrics(metrics);
 }
 
 void evaluate_odometry(const EvaluateOdometryOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::is_directory(folder))
     throw vo::Error(options.folder, "is no folder", "one written by `retrace odometry`");
-  if (!options.kitti_poses.empty()) {
-    const ordered_json metrics = kitti_metrics(folder, options.kitti_poses);
-    vo::write_file(folder / "kitti_metrics.json", metrics.dump(2) + "\n");
-    if (options.common.json)
-      fmt::print("{}\n", metrics.dump(2));
-    else
-      print_kitti_metrics(metrics);
-    return;
-  }
+  if (!options.kitti_poses.empty()) return evaluate_kitti(options);
   const std::size_t steps = vo::CsvTable::read(folder / "steps.csv").rows();
   const vo::Trajectory trajectory = vo::read_tum(folder / "trajectory.tum");
-  const Truth truth = read_truth(options);
+  const WalkTruth truth = read_walk_truth(options.truth, options.map_scale_m_per_px, options.true_steps);
   const auto pairs = truth.way.empty()
                          ? place::pair_by_time(truth.walk.poses, truth.walk.distance_m, trajectory)
                          : place::pair_by_share(truth.way, trajectory);
@@ -126,7 +76,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
     throw vo::Error(options.truth, fmt::format("and the trajectory share {:.1f} m", evaluation.distance_m),
                     fmt::format("{} m or more", options.evaluation.at_m.front()));
   }
-  const ordered_json metrics = metrics_json(steps, truth.steps, evaluation, options.evaluation);
+  const ordered_json metrics = odometry_metrics_json(steps, truth.steps, evaluation, options.evaluation);
   vo::write_file(folder / "odometry_metrics.json", metrics.dump(2) + "\n");
   const OdometryTruth for_report{.poses = truth.walk.poses,
                                  .way = truth.way,
@@ -139,17 +89,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
     fmt::print("{}\n", metrics.dump(2));
     return;
   }
-  fmt::print("steps: {}", steps);
-  if (truth.steps) fmt::print(", truly {}", *truth.steps);
-  if (!metrics["step_error_pct"].is_null())
-    fmt::print(", error {:.2f} %", metrics["step_error_pct"].get<double>());
-  fmt::print("\n{:>7} {:>12} {:>16} {:>18}\n", "at m", "measurements", "position m", "heading deg");
-  for (const place::OdometryErrors& errors : evaluation.errors) {
-    if (errors.count == 0) continue;
-    fmt::print("{:>7} {:>12} {:>16} {:>18}\n", errors.at_m, errors.count,
-               fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
-               fmt::format("{:.2f} +- {:.2f}", errors.heading_mean_deg, errors.heading_sd_deg));
-  }
+  print(steps, truth.steps, evaluation);
   fmt::print("see {}\n", (folder / "report.html").string());
 }
 

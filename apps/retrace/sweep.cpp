@@ -1,31 +1,20 @@
 #include "command.hpp"
-#include "report/heat_picture.hpp"
-#include "report/sweep_report.hpp"
-#include "run_directory.hpp"
-#include "settings_file.hpp"
+#include "sweep_files.hpp"
 #include "sweep_grid.hpp"
 #include "sweep_run.hpp"
 #include "truth_options.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <place/resolve.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
-#include <vo/io/atomic_file.hpp>
 
 namespace retrace {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::ordered_json;
 
 std::vector<Axis> axes_of(const SweepOptions& options) {
   std::vector<Axis> axes{{"motion", options.motions},
@@ -39,80 +28,6 @@ std::vector<Axis> axes_of(const SweepOptions& options) {
                       fmt::format("one list of {}", same->setting));
   }
   return axes;
-}
-
-/// What a sweep is of; another one does not go into the same folder.
-std::string description(const SweepOptions& options, const std::vector<Axis>& axes) {
-  std::string text =
-      fmt::format("# Sweep of {} on {}\n# truth: {} {} {}, tolerance {}\n# varied:", options.query,
-                  options.reference, options.truth.pairs, options.truth.query_truth,
-                  options.truth.reference_truth, tolerance_text(options.truth.tolerance));
-  for (const Axis& axis : axes) text += " " + axis.setting;
-  place::Settings settings = options.settings;
-  settings.threads.reset();  // makes no difference
-  return text + "\n" + to_toml(settings);
-}
-
-/// What was done before, if the folder holds the same sweep. Throws if it holds another.
-SweepResults resume(const fs::path& folder, const std::vector<Axis>& axes, const std::string& description,
-                    bool force) {
-  prepare_run_directory(folder, {}, true);
-  const fs::path mark = folder / "sweep.toml";
-  SweepResults done;
-  if (!force) {
-    std::ifstream file(mark);
-    const std::string before{std::istreambuf_iterator<char>(file), {}};
-    if (fs::exists(mark) ? before != description : fs::exists(folder / "sweep.csv")) {
-      throw vo::Error(folder.string(), "holds another sweep", "another folder, or --force to begin anew");
-    }
-    done = read_sweep(folder / "sweep.csv", axes);
-  }
-  vo::write_file(folder / "sweep.csv", sweep_csv(axes, done));
-  vo::write_file(mark, description);
-  return done;
-}
-
-std::string flags_of(const std::vector<Axis>& axes, const Cell& cell) {
-  std::string flags;
-  for (std::size_t i = 0; i < axes.size(); ++i) flags += fmt::format(" --{} {}", axes[i].setting, cell[i]);
-  return flags;
-}
-
-ordered_json cell_json(const std::vector<Axis>& axes, const Cell& cell,
-                       const std::optional<CellResult>& result) {
-  ordered_json json;
-  for (std::size_t i = 0; i < axes.size(); ++i) json[axes[i].setting] = cell[i];
-  if (!result) return json;
-  json.update({{"query_keyframes", result->query_keyframes},
-               {"reference_keyframes", result->reference_keyframes},
-               {"max_f1", result->max_f1},
-               {"precision", result->precision},
-               {"recall", result->recall},
-               {"auc_pr", result->auc_pr}});
-  return json;
-}
-
-void print(const SweepOptions& options, const std::vector<Axis>& axes, const SweepResults& results) {
-  const std::optional<Cell> best = best_cell(axes, results);
-  if (options.common.json) {
-    ordered_json json{{"best", nullptr}, {"cells", ordered_json::array()}};
-    if (best) json["best"] = cell_json(axes, *best, results.at(*best));
-    for (const Cell& cell : all_cells(axes)) json["cells"].push_back(cell_json(axes, cell, results.at(cell)));
-    fmt::print("{}\n", json.dump(2));
-    return;
-  }
-  fmt::print("  {:<8}{:>14}{:>8}{:>11}{:>9}   {}\n", "motion", "keyframes", "max-F1", "precision", "recall",
-             "at");
-  for (const std::string& motion : options.motions) {
-    const std::optional<Cell> cell = best_cell(axes, results, motion);
-    if (!cell) continue;
-    const CellResult& r = *results.at(*cell);
-    fmt::print("  {:<8}{:>14}{:>8.3f}{:>11.3f}{:>9.3f}  {}\n", motion,
-               fmt::format("{} x {}", r.query_keyframes, r.reference_keyframes), r.max_f1, r.precision,
-               r.recall, flags_of(axes, *cell));
-  }
-  if (best) fmt::print("best:{}\n", flags_of(axes, *best));
-  fmt::print("{} cells; see {}\n", results.size(), (fs::path(options.output) / "report.html").string());
 }
 
 /// Every cell's settings must be in range and go together, and every setting have an effect in some cell.
@@ -132,19 +47,13 @@ void sweep(const SweepOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   const std::vector<Axis> axes = axes_of(options);
   check_settings(options, axes);
-  const fs::path folder = options.output;
-  SweepResults results = resume(folder, axes, description(options, axes), options.common.force);
+  SweepResults results = resume_sweep(options, axes);
   if (!run_sweep(options, axes, results)) {
     throw vo::Error(options.output, "the sweep was stopped",
                     "the same command again, which goes on from here");
   }
-  vo::write_file(folder / "report.html",
-                 sweep_report(axes, results, fmt::format("{} on {}", options.query, options.reference),
-                              {{"Cells", std::to_string(results.size())},
-                               {"Right is within", tolerance_text(options.truth.tolerance)}}));
-  const std::vector<std::uint8_t> png = heat_picture(heat_tables(axes, results));
-  vo::write_file(folder / "heat_map.png", {reinterpret_cast<const char*>(png.data()), png.size()});
-  print(options, axes, results);
+  write_sweep_report(options, axes, results);
+  print_sweep(options, axes, results);
 }
 
 }  // namespace

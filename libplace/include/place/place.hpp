@@ -3,6 +3,7 @@
 #include "place/evaluation/run_evaluation.hpp"
 #include "place/match/route_matching.hpp"
 #include "place/resolve.hpp"
+#include "place/route/route.hpp"
 #include "place/route/route_database.hpp"
 #include "place/route/walk_sampling.hpp"
 #include "place/settings.hpp"

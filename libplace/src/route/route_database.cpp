@@ -1,13 +1,10 @@
 #include "place/route/route_database.hpp"
 
-#include "place/describe/quantise.hpp"
 #include "place/version.hpp"
+#include "route/descriptor_rows.hpp"
 #include "route/sqlite.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
-#include <functional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -20,11 +17,18 @@
 namespace place {
 namespace {
 
+using descriptor_rows::bytes_of;
+using descriptor_rows::checksum;
+using descriptor_rows::damaged;
+using descriptor_rows::Form;
+using descriptor_rows::form_of;
+using descriptor_rows::make_of_form;
+using descriptor_rows::read_chunks;
+using descriptor_rows::write_chunks;
 using sqlite::Database;
 using sqlite::Statement;
 
 constexpr std::int64_t kApplicationId = 0x72747263;  // "rtrc", in the header of the file
-constexpr std::size_t kChunk = 256;                  // keyframes
 
 // What walks take over lies as key and value, so that a new setting changes no table.
 constexpr const char* kSchema = R"sql(
@@ -59,73 +63,6 @@ CREATE TABLE preview(
   PRIMARY KEY(traverse, position));
 )sql";
 
-/// FNV-1a over 64-bit words, the last one filled up with zeros.
-std::int64_t checksum(std::span<const std::uint8_t> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-    hash = (hash ^ word) * 0x100000001b3U;
-  }
-  return std::bit_cast<std::int64_t>(hash);
-}
-
-[[noreturn]] void damaged(const std::string& path, std::string_view what) {
-  throw vo::Error(path, fmt::format("is damaged: {}", what), "a whole route database; build it again");
-}
-
-/// What descriptors are in the file: their form, two sides, and bytes.
-struct Form {
-  std::string_view name;
-  std::int64_t width = 0, height = 0;
-  std::size_t bytes = 0;  ///< of one
-
-  bool operator==(const Form&) const = default;
-};
-
-constexpr std::string_view kPixels = "pixels", kColumns = "columns", kFloats = "floats";
-
-Form form_of(const Descriptors& descriptors) {
-  if (const auto* images = std::get_if<vo::ImageStack>(&descriptors))
-    return {kPixels, images->width, images->height, images->image_size()};
-  if (const auto* stack = std::get_if<ColumnStack>(&descriptors))
-    return {kColumns, stack->columns, stack->channels, stack->descriptor_size()};
-  const auto& rows = std::get<FloatRows>(descriptors);
-  return {kFloats, static_cast<std::int64_t>(rows.width), 1, rows.width * sizeof(float)};
-}
-
-std::span<const std::uint8_t> bytes_of(const Descriptors& descriptors) {
-  return std::visit(
-      [](const auto& rows) -> std::span<const std::uint8_t> {
-        if constexpr (requires { rows.pixels; }) {
-          return rows.pixels;
-        } else {
-          return {reinterpret_cast<const std::uint8_t*>(rows.values.data()),
-                  rows.values.size() * sizeof(rows.values[0])};
-        }
-      },
-      descriptors);
-}
-
-/// Descriptors of a form, all 0; none if there is no such form.
-std::optional<Descriptors> make_of_form(std::string_view name, std::int64_t width, std::int64_t height,
-                                        std::size_t count) {
-  constexpr std::int64_t kLargest = 1 << 24;  // bytes of one that is taken for no mistake
-  if (width < 0 || height < 0 || width > kLargest || height > kLargest || width * height > kLargest)
-    return {};
-  const int w = static_cast<int>(width), h = static_cast<int>(height);
-  if (name == kPixels) return vo::make_image_stack(w, h, count);
-  if (name == kColumns) return make_column_stack(w, h, count);
-  if (name == kFloats && height == 1) return make_float_rows(static_cast<std::size_t>(width), count);
-  return {};
-}
-
-/// Writable bytes of what `make_of_form` made.
-std::span<std::uint8_t> writable_bytes(Descriptors& descriptors) {
-  const std::span<const std::uint8_t> bytes = bytes_of(descriptors);
-  return {const_cast<std::uint8_t*>(bytes.data()), bytes.size()};
-}
-
 void check(const Route& route) {
   std::set<std::string> names;
   for (const Traverse& traverse : route.traverses) {
@@ -142,31 +79,6 @@ void check(const Route& route) {
           "write_route: a traverse's descriptors do not fit its keyframes or the other traverses'");
     }
   }
-}
-
-/// Bytes of rows of one size in chunks, each with its checksum.
-void write_chunks(Statement& chunk, std::span<const std::uint8_t> bytes, std::size_t size, std::size_t rows,
-                  const std::function<void(Statement&)>& bind_keys) {
-  for (std::size_t first = 0; first < rows; first += kChunk) {
-    const auto part = bytes.subspan(first * size, std::min(kChunk, rows - first) * size);
-    bind_keys(chunk);
-    chunk.bind(static_cast<std::int64_t>(first)).bind(checksum(part)).bind(part).execute();
-  }
-}
-
-/// Fills `bytes` from chunks in their order.
-void read_chunks(Statement& chunk, std::span<std::uint8_t> missing, const std::string& path,
-                 std::string_view what) {
-  while (chunk.step()) {
-    const std::int64_t expected = chunk.integer();
-    const std::span<const std::uint8_t> part = chunk.blob();
-    if (checksum(part) != expected)
-      damaged(path, fmt::format("a block of {} does not fit its checksum", what));
-    if (part.size() > missing.size()) damaged(path, fmt::format("there are more {} than keyframes", what));
-    std::ranges::copy(part, missing.begin());
-    missing = missing.subspan(part.size());
-  }
-  if (!missing.empty()) damaged(path, fmt::format("{} are missing", what));
 }
 
 /// The settings that a statement gives as name and value.
@@ -304,27 +216,13 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     Statement chunk = database.prepare(
         "SELECT checksum, bytes FROM descriptor_chunk WHERE traverse = ? AND descriptor = ? ORDER BY first");
     chunk.bind(id).bind(static_cast<std::int64_t>(traverse.descriptors.size()));
-    read_chunks(chunk, writable_bytes(*made), path, "descriptors");
+    read_chunks(chunk, bytes_of(*made), path, "descriptors");
     traverse.descriptors.push_back(std::move(*made));
   }
   return traverse;
 }
 
 }  // namespace
-
-const vo::ImageStack* thumbnails_of(const Traverse& traverse) {
-  if (!traverse.thumbnails.empty()) return &traverse.thumbnails;
-  for (const Descriptors& descriptors : traverse.descriptors)
-    if (const auto* images = std::get_if<vo::ImageStack>(&descriptors)) return images;
-  return nullptr;
-}
-
-bool has_poses(const Route& route) {
-  return std::ranges::any_of(route.traverses, [](const Traverse& traverse) {
-    return std::ranges::any_of(traverse.keyframes,
-                               [](const Keyframe& keyframe) { return keyframe.pose.has_value(); });
-  });
-}
 
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options) {
   const std::string shown = path.string();

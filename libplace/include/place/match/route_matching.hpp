@@ -5,7 +5,7 @@
 #include "place/match/match.hpp"
 #include "place/match/openseqslam.hpp"
 #include "place/match/streamed_search.hpp"
-#include "place/route/route_database.hpp"
+#include "place/route/route.hpp"
 #include "place/route/walk_sampling.hpp"
 
 #include <cstddef>

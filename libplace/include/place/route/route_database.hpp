@@ -1,70 +1,10 @@
 #pragma once
 
-#include "place/describe/descriptor.hpp"
-#include "place/settings.hpp"
+#include "place/route/route.hpp"
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <vo/base/pose2.hpp>
-#include <vo/image/image_stack.hpp>
 
 namespace place {
-
-/// A place on a traverse.
-struct Keyframe {
-  std::int64_t frame = 0;   ///< index in the source video
-  double time_s = 0;        ///< since its first frame
-  double displacement = 0;  ///< travelled since the first frame, in the displacement's unit; 0 without motion
-  std::optional<double> distance_m;        ///< travelled along the route, where surveyed
-  std::optional<vo::Pose2> pose;           ///< where surveyed
-  std::vector<std::uint8_t> preview_jpeg;  ///< a small picture for people; empty if none was kept
-};
-
-/// One walk along a route.
-struct Traverse {
-  std::string name;         ///< unique in its route
-  std::string source;       ///< what it was built from, without folders
-  std::int64_t frames = 0;  ///< of the source
-  double duration_s = 0;    ///< from first to last frame
-  int frame_width_px = 0;
-  int frame_height_px = 0;
-  std::string pose_source;  ///< file the poses came from, without folders; empty if none
-  bool surveyed = true;     ///< false: the poses are the walk's own odometry, from where it began
-  std::vector<Keyframe> keyframes;
-  std::vector<Descriptors> descriptors;  ///< of each of the route's descriptors, one for each keyframe
-  /// One for each keyframe, kept as previews are; empty where they were not, or where they are the
-  /// descriptors.
-  vo::ImageStack thumbnails;
-  Settings settings;  ///< resolved, that shaped it
-};
-
-/// Where on the earth a route's poses are (0, 0): x goes east, y north.
-struct GeographicOrigin {
-  double latitude_deg = 0;   ///< WGS 84
-  double longitude_deg = 0;  ///< WGS 84
-};
-
-/// A reference route: any number of traverses of it, by day, by night.
-struct Route {
-  Settings settings;  ///< that walks on it take over (`kept_by_route`)
-  double unit = 0;  ///< between keyframes, in the displacement's unit (SSS Eq. 4's u, of the first traverse);
-                    ///< 0 without motion
-  bool metric = false;  ///< that unit is the metre; otherwise frames at the first traverse's mean speed
-  std::vector<Bytes> learned;  ///< by each descriptor from the first traverse (`Descriptor::learn`)
-  std::vector<Traverse> traverses;
-  std::optional<GeographicOrigin> origin;  ///< where the surveyed poses are geographic
-  std::string software_version;            ///< of the program that wrote it
-};
-
-/// The thumbnails of a traverse's keyframes, wherever they are; null if it has none.
-const vo::ImageStack* thumbnails_of(const Traverse& traverse);
-
-/// True if any keyframe has a pose that a query could be put among.
-bool has_poses(const Route& route);
 
 /// The layout of the file; files of another layout are refused.
 inline constexpr int kRouteSchemaVersion = 4;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "place/route/route_database.hpp"
+#include "place/route/route.hpp"
 
 #include <span>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "place/describe/descriptor.hpp"
 #include "place/route/relative_scale.hpp"
-#include "place/route/route_database.hpp"
+#include "place/route/route.hpp"
 
 #include <cstddef>
 #include <memory>

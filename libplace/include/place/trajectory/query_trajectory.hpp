@@ -1,7 +1,7 @@
 #pragma once
 
 #include "place/match/match.hpp"
-#include "place/route/route_database.hpp"
+#include "place/route/route.hpp"
 #include "place/route/route_position.hpp"
 #include "place/trajectory/drift_correction.hpp"
 

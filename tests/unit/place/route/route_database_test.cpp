@@ -225,11 +225,6 @@ TEST(RouteDatabase, RefusesSettingsThatThereAreNot) {
   EXPECT_THROW_WITH(place::read_route(folder / "r.db"), vo::Error, "sampling-n: is 'x'; expected a number");
 }
 
-TEST(RouteDatabase, KnowsWhetherThereArePoses) {
-  EXPECT_TRUE(place::has_poses(example_route()));
-  EXPECT_FALSE(place::has_poses({}));
-}
-
 TEST(RouteDatabase, FindsTruncation) {
   const TemporaryFolder folder;
   place::write_route(folder / "r.db", example_route());

@@ -1,0 +1,79 @@
+#include "odometry_evaluation_files.hpp"
+
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <vo/base/error.hpp>
+#include <vo/io/csv.hpp>
+
+namespace retrace {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::string_view kProtocol =
+    "Random segments, at whose start the trajectory is put at the true place and heading; errors at "
+    "distances "
+    "truly travelled from there (PVO 5.2). Heading errors are estimate minus truth, clockwise.";
+
+std::vector<place::WayPoint> read_way(const vo::CsvTable& table, const std::string& path,
+                                      double scale_m_per_px) {
+  const std::vector<double> x_px = table.numbers("x_px");
+  const std::vector<double> y_px = table.numbers("y_px");
+  std::vector<place::WayPoint> way;
+  bool moves = false;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    way.push_back({x_px[i] * scale_m_per_px, -y_px[i] * scale_m_per_px});  // down on the map is south
+    moves = moves || x_px[i] != x_px[0] || y_px[i] != y_px[0];
+  }
+  if (!moves) throw vo::Error(path, "is no way", "two points or more of different places");
+  return way;
+}
+
+}  // namespace
+
+WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& map_scale_m_per_px,
+                          const std::optional<std::size_t>& counted_steps) {
+  const vo::CsvTable table = vo::CsvTable::read(path);
+  WalkTruth truth;
+  if (table.has("x_px")) {
+    if (!map_scale_m_per_px)
+      throw vo::Error(path, "is a way on a map", "--map-scale-m-per-px, the metres of one of its pixels");
+    truth.way = read_way(table, path, *map_scale_m_per_px);
+  } else {
+    if (map_scale_m_per_px)
+      throw vo::Error(path, "has no column 'x_px'", "a way on a map, with --map-scale-m-per-px");
+    truth.walk = vo::read_truth(path);
+    if (!truth.walk.steps.empty()) truth.steps = static_cast<std::size_t>(truth.walk.steps.back());
+  }
+  if (counted_steps) truth.steps = counted_steps;
+  return truth;
+}
+
+ordered_json odometry_metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
+                                   const place::OdometryEvaluation& evaluation,
+                                   const place::OdometryEvaluationOptions& options) {
+  ordered_json json{{"steps_estimated", steps},     {"steps_true", nullptr},
+                    {"step_error_pct", nullptr},    {"distance_m", evaluation.distance_m},
+                    {"segments", options.segments}, {"segment_m", evaluation.segment_m},
+                    {"seed", options.seed}};
+  if (true_steps) json["steps_true"] = *true_steps;
+  if (true_steps && *true_steps > 0) json["step_error_pct"] = place::step_error_pct(steps, *true_steps);
+  const auto add = [&](const char* name, double place::OdometryErrors::*value) {
+    for (const place::OdometryErrors& errors : evaluation.errors)
+      json[name][fmt::format("{}", errors.at_m)] = errors.count > 0 ? ordered_json(errors.*value) : nullptr;
+  };
+  add("euclidean_error_m", &place::OdometryErrors::euclidean_mean_m);
+  add("euclidean_error_sd_m", &place::OdometryErrors::euclidean_sd_m);
+  add("heading_error_deg", &place::OdometryErrors::heading_mean_deg);
+  add("heading_error_sd_deg", &place::OdometryErrors::heading_sd_deg);
+  add("heading_absolute_error_deg", &place::OdometryErrors::heading_abs_mean_deg);
+  for (const place::OdometryErrors& errors : evaluation.errors)
+    json["measurements"][fmt::format("{}", errors.at_m)] = errors.count;
+  json["protocol"] = kProtocol;
+  return json;
+}
+
+}  // namespace retrace

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <place/evaluation/odometry_evaluation.hpp>
+#include <vo/io/trajectory_io.hpp>
+
+namespace retrace {
+
+/// The truth about a walk: poses with times, or else its path drawn on a map, in metres.
+struct WalkTruth {
+  std::optional<std::size_t> steps;
+  vo::WalkTruth walk;
+  std::vector<place::WayPoint> way;
+};
+
+/// Reads truth.csv, or a path on a map (x_px,y_px, y downwards, north up) for which the metres of a pixel are
+/// given. `counted_steps` goes before the steps of the file. Throws `vo::Error` naming the file if it is
+/// neither, or is a path on a map without a scale, or the other way round.
+WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& map_scale_m_per_px,
+                          const std::optional<std::size_t>& counted_steps);
+
+/// odometry_metrics.json (PVO 5.2).
+nlohmann::ordered_json odometry_metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
+                                             const place::OdometryEvaluation& evaluation,
+                                             const place::OdometryEvaluationOptions& options);
+
+}  // namespace retrace
