@@ -19,7 +19,7 @@ constexpr const char* kDemoDescriptor = "thumbnail";
 
 /// A walk drawn into a folder and read back from its video.
 struct DrawnWalk {
-  fs::path folder;
+  std::filesystem::path folder;
   vo::Walk walk;
 
   [[nodiscard]] std::string video() const { return (folder / "walk.mp4").string(); }
@@ -28,7 +28,7 @@ struct DrawnWalk {
 
 /// The night walk found on the day walk, by one way of sampling.
 struct DemoRun {
-  fs::path folder;
+  std::filesystem::path folder;
   int every = 0;  ///< frames between keyframes, without motion
   std::size_t references = 0;
   WrittenRun written;

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <place/describe/quantise.hpp>
 #include <vo/base/error.hpp>
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <place/describe/quantise.hpp>
 #include <place/route/route.hpp>
 
 namespace {
