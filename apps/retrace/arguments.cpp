@@ -20,6 +20,7 @@ std::string type_of(const place::Setting& setting) {
     std::ranges::replace(names, '|', ',');
     return "{" + names + "}";
   }
+  if (!setting.form.empty()) return std::string(setting.form);
   return std::visit(
       [](auto field) -> std::string {
         using Value =

@@ -4,6 +4,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +15,7 @@
 #include <place/place.hpp>
 #include <place/route/route_lock.hpp>
 #include <place/route/survey.hpp>
+#include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 
@@ -21,12 +25,14 @@ namespace {
 struct BuildOptions {
   place::Settings settings;
   CommonOptions common;
-  std::string walk;
+  std::vector<std::string> walk;
   std::string output;
   std::string name;
   std::string truth;
   std::string trajectory;
   std::string track;
+  std::string track_name;
+  std::optional<double> trajectory_start_s, track_start_s;
 };
 
 /// The traverse's name where none is given: the recording's, without folders and ending.
@@ -48,7 +54,11 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
 std::optional<place::Survey> survey_of(const BuildOptions& options, const vo::Walk& walk,
                                        place::Route& route) {
   if (!options.truth.empty()) return place::survey_from_truth(options.truth, walk);
-  if (!options.trajectory.empty()) return place::survey_from_trajectory(options.trajectory, walk);
+  place::SurveyOptions form = place::survey_options(options.settings);
+  if (!options.trajectory.empty()) {
+    form.start_s = options.trajectory_start_s;
+    return place::survey_from_trajectory(options.trajectory, walk, form);
+  }
   if (options.track.empty()) return {};
   // A track's poses are metres about the route's origin; other coordinates on the route would not fit them.
   for (const place::Traverse& traverse : route.traverses) {
@@ -58,7 +68,20 @@ std::optional<place::Survey> survey_of(const BuildOptions& options, const vo::Wa
                       "--truth or --trajectory in the same coordinates, or another route");
     }
   }
-  return place::survey_from_track(options.track, walk, route.origin);
+  form.start_s = options.track_start_s;
+  form.track_name = options.track_name;
+  return place::survey_from_track(options.track, walk, route.origin, form);
+}
+
+/// The settings without those that, as motion is no file's, the survey alone has a use for.
+place::Settings without_survey(const BuildOptions& options, const place::Settings* route) {
+  place::Settings settings = options.settings;
+  const std::optional<std::string> motion =
+      !settings.motion && route != nullptr ? route->motion : settings.motion;
+  if (motion == "file") return settings;
+  if (!options.trajectory.empty()) settings.axes.reset();
+  if (!options.trajectory.empty() || !options.track.empty()) settings.motion_file_gap_s.reset();
+  return settings;
 }
 
 void print(const BuildOptions& options, const place::Route& route, const place::AddedTraverse& added) {
@@ -86,15 +109,17 @@ void print(const BuildOptions& options, const place::Route& route, const place::
 void build(BuildOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_writable(options.output);
-  if (options.name.empty()) options.name = default_name(options.walk);
+  if (options.name.empty()) options.name = default_name(options.walk.front());
   const place::RouteLock lock(options.output, {.waiting = [&] {
                                 spdlog::info("{}: another build adds to it; waiting", options.output);
                               }});
   const bool exists = std::filesystem::exists(options.output);
-  place::Route route = exists ? place::read_route(options.output) : place::new_route(options.settings);
+  place::Route route =
+      exists ? place::read_route(options.output) : place::new_route(without_survey(options, nullptr));
   check_name_is_free(route, options);
-  const place::Settings settings = place::resolve(
-      options.settings, {.purpose = place::Purpose::kRoute, .route = exists ? &route.settings : nullptr});
+  const place::Settings* const of_route = exists ? &route.settings : nullptr;
+  const place::Settings settings = place::resolve(without_survey(options, of_route),
+                                                  {.purpose = place::Purpose::kRoute, .route = of_route});
 
   vo::Walk walk;
   {
@@ -118,7 +143,7 @@ void build(BuildOptions& options) {
 
 std::function<void()> declare_build(Arguments& arguments) {
   auto options = std::make_shared<BuildOptions>();
-  arguments.positional("walk", options->walk, "video file, folder of images, or camera:N");
+  arguments.positional("walk", options->walk, kWalkArgument);
   arguments.option("-o,--output", options->output, "route database to create or add to").required();
   arguments.option("--name", options->name, "name of the traverse [the recording's]");
   const Argument truth = arguments.option("--truth", options->truth,
@@ -126,11 +151,25 @@ std::function<void()> declare_build(Arguments& arguments) {
   Argument trajectory =
       arguments.option("--trajectory", options->trajectory,
                        "surveyed poses of the walk, TUM format, seconds since its first frame");
+  Argument track = arguments.option(
+      "--track", options->track,
+      "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg");
+  track.excludes(truth).excludes(trajectory.excludes(truth));
   arguments
-      .option("--track", options->track,
-              "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg")
-      .excludes(truth)
-      .excludes(trajectory.excludes(truth));
+      .option(
+          "--trajectory-start-s", options->trajectory_start_s,
+          "seconds that the trajectory's clock shows at the first frame [0, or by the video's creation time]")
+      .needs(trajectory);
+  arguments
+      .option(
+          "--track-start-s", options->track_start_s,
+          "seconds from a .gpx file's first point, or of a .csv file's clock, to the first frame [0, or by "
+          "the video's creation time]")
+      .needs(track);
+  arguments
+      .option("--track-name", options->track_name,
+              "of several tracks in a .gpx file the one so called, or its number from 1")
+      .needs(track);
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral});
   arguments.common(options->common);

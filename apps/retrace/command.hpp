@@ -6,6 +6,10 @@
 
 namespace retrace {
 
+/// What a walk is given as, for help.
+inline constexpr const char* kWalkArgument =
+    "video file, folder of images, or camera:N; several files in order are one walk";
+
 /// Declares a command's arguments and gives what it does once they are parsed.
 using Declare = std::function<void()>(Arguments&);
 

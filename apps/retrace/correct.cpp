@@ -2,10 +2,13 @@
 #include "run_files.hpp"
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <place/match/match_io.hpp>
 #include <vo/base/error.hpp>
@@ -21,6 +24,15 @@ struct CorrectOptions {
   std::string route;
   std::string odometry;
 };
+
+/// When the run's walk began, where its summary says it.
+std::optional<double> start_utc_s(const fs::path& folder) {
+  std::ifstream file(folder / "summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
+  if (!summary.is_object()) return std::nullopt;
+  const auto start = summary.find("query_start_utc_s");
+  return start != summary.end() && start->is_number() ? std::optional(start->get<double>()) : std::nullopt;
+}
 
 void correct(const CorrectOptions& options) {
   const fs::path folder = options.folder;
@@ -45,7 +57,7 @@ void correct(const CorrectOptions& options) {
   const place::QueryTrajectory corrected = place::query_trajectory(route, matches, nodes);
   if (!corrected.why_not.empty())
     throw vo::Error((folder / "matches.csv").string(), "gives no trajectory", corrected.why_not);
-  write_trajectory(corrected, route, matches, folder);
+  write_trajectory(corrected, route, matches, folder, start_utc_s(folder));
   fmt::print("{}: {} poses from {} matches; see {}\n", options.folder, corrected.corrected.poses.size(),
              corrected.fixes.size(), (folder / "trajectory.csv").string());
 }

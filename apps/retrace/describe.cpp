@@ -24,7 +24,7 @@ namespace {
 struct DescribeOptions {
   place::Settings settings;
   CommonOptions common;
-  std::string walk;
+  std::vector<std::string> walk;
   std::string route;
   std::string output;
 };
@@ -93,7 +93,7 @@ void describe(const DescribeOptions& options) {
 
 std::function<void()> declare_describe(Arguments& arguments) {
   auto options = std::make_shared<DescribeOptions>();
-  arguments.positional("walk", options->walk, "video file, folder of images, or camera:N");
+  arguments.positional("walk", options->walk, kWalkArgument);
   arguments
       .option("-o,--output", options->output, "file to write, walk.npy; frames and times go to walk.npy.csv")
       .required();

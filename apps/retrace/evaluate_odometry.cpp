@@ -60,11 +60,23 @@ void evaluate_kitti(const EvaluateOdometryOptions& options) {
     print_kitti_metrics(metrics);
 }
 
+/// Metres are held against metres only.
+void check_metres(const fs::path& folder) {
+  if (!fs::exists(folder / "frames.csv")) return;
+  const vo::CsvTable frames = vo::CsvTable::read(folder / "frames.csv");
+  if (frames.rows() == 0 || !frames.has("unit")) return;
+  const std::string unit = frames.text("unit").front();
+  if (unit == "m") return;
+  throw vo::Error((folder / "trajectory.tum").string(), fmt::format("is in '{}', no metres", unit),
+                  "a walk whose steps were seen, or that was given --camera-height-m");
+}
+
 void evaluate_odometry(const EvaluateOdometryOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::is_directory(folder))
     throw vo::Error(options.folder, "is no folder", "one written by `retrace odometry`");
   if (!options.kitti_poses.empty()) return evaluate_kitti(options);
+  check_metres(folder);
   const std::size_t steps = vo::CsvTable::read(folder / "steps.csv").rows();
   const vo::Trajectory trajectory = vo::read_tum(folder / "trajectory.tum");
   const WalkTruth truth = read_walk_truth(options.truth, options.map_scale_m_per_px, options.true_steps);

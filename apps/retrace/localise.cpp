@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 struct LocaliseOptions {
   place::Settings settings;
   CommonOptions common;
-  std::string walk;
+  std::vector<std::string> walk;
   std::string route;
   std::string output;
   bool save_matrices = false;
@@ -33,7 +33,7 @@ void print_table(const LocaliseOptions& options, const vo::Walk& walk, const pla
     fmt::print("  {:<20}{:>7}   {}\n", name, count, note);
   };
   const auto count = [&](auto what) { return std::ranges::count_if(run.matches, what); };
-  fmt::print("{} on {}\n", options.walk, options.route);
+  fmt::print("{} on {}\n", walk.source, options.route);
   row("query keyframes", run.matches.size(), fmt::format("of {} frames", walk.frames()));
   row("matched", count([](const place::Match& m) { return m.place.has_value(); }),
       fmt::format("{} on part of a line", count([](const place::Match& m) { return m.partial; })));
@@ -71,7 +71,7 @@ void localise(const LocaliseOptions& options) {
 
 std::function<void()> declare_localise(Arguments& arguments) {
   auto options = std::make_shared<LocaliseOptions>();
-  arguments.positional("walk", options->walk, "video file, folder of images, or camera:N");
+  arguments.positional("walk", options->walk, kWalkArgument);
   arguments.option("--route", options->route, "route database").required();
   arguments.option("-o,--output", options->output, "folder for the results").required();
   arguments.flag(

@@ -20,7 +20,7 @@ namespace {
 struct OdometryOptions {
   place::Settings settings;
   CommonOptions common;
-  std::string walk;
+  std::vector<std::string> walk;
   std::string output;
   std::optional<double> walk_length_m;
   bool visual_odometry = false;
@@ -32,7 +32,7 @@ double measured_step_length_m(const OdometryOptions& options, const vo::Walk& wa
                               const vo::PedestrianMotionOptions& pedestrian) {
   const double steps = vo::steps_made(vo::pedestrian_motion(walk, pedestrian).detection);
   if (steps == 0)
-    throw vo::Error(options.walk, "shows no steps", "a walk of the length given with --walk-length-m");
+    throw vo::Error(walk.source, "shows no steps", "a walk of the length given with --walk-length-m");
   return vo::calibrated_step_length_m(*options.walk_length_m, steps);
 }
 
@@ -92,7 +92,7 @@ void odometry(const OdometryOptions& options) {
 
 std::function<void()> declare_odometry(Arguments& arguments) {
   auto options = std::make_shared<OdometryOptions>();
-  arguments.positional("walk", options->walk, "video file, folder of images, or camera:N");
+  arguments.positional("walk", options->walk, kWalkArgument);
   arguments.option("-o,--output", options->output, "folder for the results").required();
   Argument length = arguments.option(
       "--walk-length-m", options->walk_length_m,
@@ -105,7 +105,7 @@ std::function<void()> declare_odometry(Arguments& arguments) {
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kMotion, kOdometry, kGeneral},
                      {"every", "spacing-m", "sampling-n", "tie-scale", "motion-file", "motion-file-start-s",
-                      "motion-file-gap-s", "preview-width-px"});
+                      "motion-file-gap-s", "axes", "preview-width-px"});
   arguments.common(options->common);
   arguments.footer(
       "Motion is hybrid, by steps and visual odometry [SSS 3.5], unless it is steps, by these alone [PVO].\n"

@@ -177,6 +177,8 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
     distance += frame.value;
     if (frame.source != vo::DisplacementSource::kNone) ++sources[std::string(vo::name_of(frame.source))];
   }
+  std::vector<std::string> warnings = walk.warnings;
+  warnings.insert(warnings.end(), walked.warnings.begin(), walked.warnings.end());
   ordered_json json{
       {"walk", walk.source},
       {"frames", walk.frames()},
@@ -192,7 +194,7 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
       {"distance_m", nullptr},
       {"frames_by_source", sources},
       {"delta_min", nullptr},
-      {"warnings", walk.warnings},
+      {"warnings", warnings},
       {"version", place::kVersion}};
   for (const vo::Activity activity : {vo::Activity::kStanding, vo::Activity::kWalking, vo::Activity::kRunning,
                                       vo::Activity::kRiding, vo::Activity::kUnknown}) {
@@ -225,7 +227,8 @@ WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, con
   vo::write_file(folder / "activity.csv",
                  vo::to_csv<vo::ActivitySecond>(walked.pedestrian->activity, kActivityColumns));
   vo::write_file(folder / "trajectory.tum",
-                 vo::to_tum(trajectory, "pose of each frame, metres and radians since the first"));
+                 vo::to_tum(trajectory, fmt::format("pose of each frame since the first, {} and radians",
+                                                    walked.metric ? "metres" : "units of no known length")));
   if (extras.visual_odometry) write_visual_odometry(walk, folder);
   std::string text = json.dump(2) + "\n";
   vo::write_file(folder / "summary.json", text);

@@ -61,8 +61,11 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
     partial += match.partial ? 1 : 0;
     partial_accepted += match.partial && match.accepted ? 1 : 0;
   }
+  std::vector<std::string> warnings = walk.warnings;
+  warnings.insert(warnings.end(), run.sampled.warnings.begin(), run.sampled.warnings.end());
   ordered_json json{{"query", walk.source},
                     {"query_frames", walk.frames()},
+                    {"query_start_utc_s", walk.start_utc_s ? ordered_json(*walk.start_utc_s) : nullptr},
                     {"query_duration_s", walk.time_s.back()},
                     {"route", route_path},
                     {"traverses", ordered_json::array()},
@@ -76,7 +79,7 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
                     {"lines", run.lines},
                     {"sampling_unit", run.sampled.unit},
                     {"relative_scale", run.sampled.scale},
-                    {"warnings", walk.warnings},
+                    {"warnings", warnings},
                     {"version", place::kVersion}};
   json["drift"] = drift_summary(run.drift);
   for (const place::Traverse& traverse : route.traverses) {
@@ -182,7 +185,7 @@ WrittenRun localise_into(const fs::path& folder, const place::Route& route, cons
                  run.drift.why_not);
   std::string text = summary(route, route_path, walk, run).dump(2) + "\n";
   vo::write_file(folder / "matches.csv", place::to_csv(run.matches));
-  write_trajectory(run.drift, route, run.matches, folder);
+  write_trajectory(run.drift, route, run.matches, folder, walk.start_utc_s);
   vo::write_file(folder / "summary.json", text);
   vo::write_file(folder / "config.toml", to_toml(run.settings));
   const ordered_json data = run_data(route, walk, run, keeper.matrices());
@@ -193,7 +196,8 @@ WrittenRun localise_into(const fs::path& folder, const place::Route& route, cons
 }
 
 void write_trajectory(const place::QueryTrajectory& t, const place::Route& route,
-                      const std::vector<place::Match>& matches, const fs::path& folder) {
+                      const std::vector<place::Match>& matches, const fs::path& folder,
+                      std::optional<double> start_utc_s) {
   for (const char* name :
        {"trajectory_odometry.tum", "trajectory.csv", "trajectory.geojson", "trajectory.gpx"})
     fs::remove(folder / name);
@@ -213,7 +217,7 @@ void write_trajectory(const place::QueryTrajectory& t, const place::Route& route
   vo::write_file(folder / "trajectory.csv", trajectory_csv(t, matches));
   if (!route.origin || !route.traverses[*t.traverse].surveyed) return;
   vo::write_file(folder / "trajectory.geojson", place::to_geojson(corrected, *route.origin));
-  vo::write_file(folder / "trajectory.gpx", place::to_gpx(corrected, *route.origin));
+  vo::write_file(folder / "trajectory.gpx", place::to_gpx(corrected, *route.origin, start_utc_s));
 }
 
 }  // namespace retrace

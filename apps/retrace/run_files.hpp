@@ -3,6 +3,7 @@
 #include "report/kept_matrices.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ WrittenRun localise_into(const std::filesystem::path& folder, const place::Route
 
 /// Writes trajectory.tum: the corrected poses, or else those of accepted matches. With a correction also
 /// trajectory_odometry.tum and trajectory.csv, and trajectory.geojson and .gpx where the route has an origin;
-/// those not written are removed, since they would be another run's.
+/// those not written are removed, since they would be another run's. `start_utc_s`: see `place::to_gpx`.
 void write_trajectory(const place::QueryTrajectory& trajectory, const place::Route& route,
-                      const std::vector<place::Match>& matches, const std::filesystem::path& folder);
+                      const std::vector<place::Match>& matches, const std::filesystem::path& folder,
+                      std::optional<double> start_utc_s);
 
 }  // namespace retrace

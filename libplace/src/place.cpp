@@ -19,12 +19,13 @@ ResolveContext on(const Route& route, Purpose purpose) {
   return {.purpose = purpose, .route = &route.settings, .route_has_poses = has_poses(route)};
 }
 
-vo::Walk read_as(const std::string& source, const StageOptions& options,
+vo::Walk read_as(std::span<const std::string> sources, const StageOptions& options,
                  const vo::ProgressCallback& progress) {
-  vo::Walk walk = vo::read_walk(source, options.walk, progress);
-  if (!options.motion_file.empty())
-    walk.track = vo::external_trajectory(vo::read_pose_series(options.motion_file), walk.time_s,
-                                         options.motion_file_fit);
+  vo::Walk walk = vo::read_walk(sources, options.walk, progress);
+  if (options.motion_file.empty()) return walk;
+  const vo::PoseSeries series = vo::read_pose_series(options.motion_file, options.motion_file_form);
+  walk.track = vo::external_trajectory(series, walk.time_s, options.motion_file_fit);
+  walk.warnings.insert(walk.warnings.end(), series.warnings.begin(), series.warnings.end());
   return walk;
 }
 
@@ -92,14 +93,24 @@ Route new_route(const Settings& settings) {
 }
 
 vo::Walk read(const std::string& source, const Settings& settings, const vo::ProgressCallback& progress) {
-  return read_as(source, stage_options(resolve(settings, {.purpose = Purpose::kRoute})), progress);
+  return read(std::span(&source, 1), settings, progress);
+}
+
+vo::Walk read(std::span<const std::string> sources, const Settings& settings,
+              const vo::ProgressCallback& progress) {
+  return read_as(sources, stage_options(resolve(settings, {.purpose = Purpose::kRoute})), progress);
 }
 
 vo::Walk read(const std::string& source, const Route& route, const Settings& settings,
               const vo::ProgressCallback& progress) {
+  return read(std::span(&source, 1), route, settings, progress);
+}
+
+vo::Walk read(std::span<const std::string> sources, const Route& route, const Settings& settings,
+              const vo::ProgressCallback& progress) {
   const ResolveContext context = on(route, Purpose::kLocalise);
   const Settings resolved = resolve(settings, context);
-  return read_as(source, stage_options(resolved, follows_steps(resolved, context)), progress);
+  return read_as(sources, stage_options(resolved, follows_steps(resolved, context)), progress);
 }
 
 AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,

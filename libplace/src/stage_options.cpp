@@ -39,20 +39,6 @@ void put_choice(const std::optional<std::string>& value, Target& target,
   throw std::invalid_argument("stage_options: resolved settings expected");
 }
 
-void put_reading(const Settings& s, StageOptions& options) {
-  vo::WalkOptions& walk = options.walk;
-  put(s.frame_rate_hz, walk.frames.image_rate_hz);
-  put(s.thumbnail_width, walk.thumbnail.width);
-  put(s.thumbnail_height, walk.thumbnail.height);
-  put(s.preview_width_px, walk.preview_width_px);
-  vo::PatchNormalisationOptions& patch = options.matching.patch;
-  put(s.patch_px, patch.patch_px);
-  put_choice(s.patch_shape, patch.shape,
-             {{"grid", vo::PatchShape::kGrid}, {"window", vo::PatchShape::kWindow}});
-  put(s.patch_min_contrast, patch.min_contrast);
-  options.sampling.motion.visual.patch = patch;
-}
-
 /// Numbers with a character between them, as many as there are in `target`.
 template <typename Number, std::size_t count>
 void put_numbers(std::string_view name, const std::optional<std::string>& text, char between,
@@ -69,6 +55,40 @@ void put_numbers(std::string_view name, const std::optional<std::string>& text, 
     }
     at = after + 1;
   }
+}
+
+void put_crop(const std::optional<std::string>& text, std::optional<cv::Rect>& target) {
+  if (!text) return;
+  std::array<int, 4> side{};
+  put_numbers("crop", text, ',', side);
+  const auto [x, y, width, height] = side;
+  if (x < 0 || y < 0 || width < 1 || height < 1)
+    throw vo::Error("crop", fmt::format("is '{}'", *text),
+                    "x,y,width,height in pixels, of an upright picture's top left corner on");
+  target = cv::Rect(x, y, width, height);
+}
+
+void put_axes(const std::optional<std::string>& value, vo::TrajectoryAxes& target) {
+  put_choice(value, target,
+             {{"auto", vo::TrajectoryAxes::kAuto},
+              {"vehicle", vo::TrajectoryAxes::kVehicle},
+              {"camera", vo::TrajectoryAxes::kCamera}});
+}
+
+void put_reading(const Settings& s, StageOptions& options) {
+  vo::WalkOptions& walk = options.walk;
+  put(s.frame_rate_hz, walk.frames.frame_rate_hz);
+  put_crop(s.crop, walk.frames.crop);
+  put(s.mask, walk.frames.mask);
+  put(s.thumbnail_width, walk.thumbnail.width);
+  put(s.thumbnail_height, walk.thumbnail.height);
+  put(s.preview_width_px, walk.preview_width_px);
+  vo::PatchNormalisationOptions& patch = options.matching.patch;
+  put(s.patch_px, patch.patch_px);
+  put_choice(s.patch_shape, patch.shape,
+             {{"grid", vo::PatchShape::kGrid}, {"window", vo::PatchShape::kWindow}});
+  put(s.patch_min_contrast, patch.min_contrast);
+  options.sampling.motion.visual.patch = patch;
 }
 
 void put_describing(const Settings& s, StageOptions& options) {
@@ -120,6 +140,7 @@ void put_motion(const Settings& s, StageOptions& options) {
   put(s.motion_file, options.motion_file);
   put(s.motion_file_start_s, options.motion_file_fit.start_s);
   put(s.motion_file_gap_s, options.motion_file_fit.max_gap_s);
+  put_axes(s.axes, options.motion_file_form.axes);
   put(s.every, sampling.every);
   sampling.n = s.sampling_n;
   sampling.spacing_m = s.spacing_m;
@@ -196,6 +217,13 @@ void put_search(const Settings& s, StageOptions& options) {
 }
 
 }  // namespace
+
+SurveyOptions survey_options(const Settings& given) {
+  SurveyOptions options;
+  put(given.motion_file_gap_s, options.max_gap_s);
+  put_axes(given.axes, options.axes);
+  return options;
+}
 
 StageOptions stage_options(const Settings& resolved, bool follow_steps) {
   StageOptions options;

@@ -78,11 +78,30 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
       });
 }
 
-std::string warning_of(const Walk& walk, const ClockGap& gap) {
-  return fmt::format(
-      "{}: no frames for {:.1f} s, from {:.2f} s on (frame {}); what was walked in it is not known, and no "
-      "sequence crosses it",
-      walk.source, gap.length_s, walk.time_s[gap.frame - 1], gap.frame - 1);
+/// What a user should know of the clock's jumps: each that parts the walk, and the others together.
+std::vector<std::string> gap_warnings(const Walk& walk) {
+  std::vector<std::string> warnings;
+  std::vector<ClockGap> filled;
+  for (const ClockGap& gap : walk.gaps) {
+    if (!parts_walk(gap)) {
+      filled.push_back(gap);
+      continue;
+    }
+    warnings.push_back(fmt::format(
+        "{}: no frames for {:.1f} s, from {:.2f} s on (frame {}); what was walked in it is not known, and no "
+        "sequence crosses it",
+        walk.source, gap.length_s, walk.time_s[gap.frame - 1], gap.frame - 1));
+  }
+  if (!filled.empty()) {
+    const ClockGap& first = filled.front();
+    warnings.push_back(fmt::format(
+        "{}: no frames for {:.1f} s, from {:.2f} s on (frame {}){}; what was walked in it is taken from the "
+        "pace around it",
+        walk.source, first.length_s, walk.time_s[first.frame - 1], first.frame - 1,
+        filled.size() > 1 ? fmt::format(", and {} jumps of the clock more like it", filled.size() - 1)
+                          : std::string()));
+  }
+  return warnings;
 }
 
 }  // namespace
@@ -133,8 +152,7 @@ Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& 
   walk.start_utc_s = frames.start_utc_s();
   walk.warnings = frames.warnings();
   walk.gaps = clock_gaps(walk.time_s);
-  for (const ClockGap& gap : walk.gaps)
-    if (parts_walk(gap)) walk.warnings.push_back(warning_of(walk, gap));
+  for (std::string& warning : gap_warnings(walk)) walk.warnings.push_back(std::move(warning));
   if (options.visual_odometry) {
     walk.track = trackers.visual_odometry.finish();
     for (const ClockGap& gap : walk.gaps) {  // what is seen after it may be anywhere

@@ -234,6 +234,10 @@ class CliTest(unittest.TestCase):
             f"{row['time_s']},{46 + float(row['y_m']) / 111147:.9f},{7 + float(row['x_m']) / 77466:.9f}\n" for row in truth))
         route, out = self.folder / "route.db", self.folder / "run"
         check("build", video_file, "-o", route, "--track", track)
+        dated = self.folder / "dated.mp4"
+        subprocess.run(["ffmpeg", "-v", "error", "-i", str(video_file), "-c", "copy", "-metadata",
+                        "creation_time=2024-05-01T10:01:00Z", str(dated)], check=True)
+        video_file = dated
         localise = ("localise", video_file, "--route", route, "--step-length", "0.75", "--sequence-length", "6")
         check(*localise, "-o", out)
         corrected = rows(out / "trajectory.csv")
@@ -254,6 +258,7 @@ class CliTest(unittest.TestCase):
         self.assertEqual(len(line), len(corrected))
         self.assertAlmostEqual(line[-1][1], 46 + float(truth[-1]["y_m"]) / 111147, delta=1e-5)
         self.assertEqual((out / "trajectory.gpx").read_text().count("<trkpt"), len(corrected))
+        self.assertIn("<time>2024-05-01T10:01:0", (out / "trajectory.gpx").read_text())
         self.assertTrue(read_json(out / "summary.json")["drift"]["corrected"])
 
         # From the files again, the same; from other odometry, as good; without, the matches' poses.

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,13 @@ Route new_route(const Settings& settings = {});
 /// by a file, the file's track. Throws `vo::Error` if it cannot be read, or for settings that do not go
 /// together. The time of decoding, see `vo::read_walk`.
 vo::Walk read(const std::string& source, const Settings& settings, const vo::ProgressCallback& progress = {});
+/// The same of several files in order, as one walk.
+vo::Walk read(std::span<const std::string> sources, const Settings& settings,
+              const vo::ProgressCallback& progress = {});
 /// The same of a walk that is to be found on a route: what `settings` do not give is the route's.
 vo::Walk read(const std::string& source, const Route& route, const Settings& settings = {},
+              const vo::ProgressCallback& progress = {});
+vo::Walk read(std::span<const std::string> sources, const Route& route, const Settings& settings = {},
               const vo::ProgressCallback& progress = {});
 
 /// What became of a walk on a route.

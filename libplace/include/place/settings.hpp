@@ -15,6 +15,7 @@ namespace place {
 struct Settings {
   // Reading
   std::optional<double> frame_rate_hz;
+  std::optional<std::string> crop, mask;
   std::optional<int> thumbnail_width, thumbnail_height, preview_width_px;
   std::optional<int> patch_px;
   std::optional<std::string> patch_shape;
@@ -27,7 +28,7 @@ struct Settings {
   std::optional<bool> swap_rb;
 
   // Motion and sampling
-  std::optional<std::string> motion, motion_file;
+  std::optional<std::string> motion, motion_file, axes;
   std::optional<double> motion_file_start_s, motion_file_gap_s;
   std::optional<int> every;
   std::optional<double> spacing_m, sampling_n;
@@ -91,6 +92,7 @@ struct Setting {
   double least = 0, most = 0;    ///< of a number, both included
   bool above_least = false;      ///< the least itself is excluded
   std::string_view choices;      ///< of a text: a|b|c; empty: any
+  std::string_view form;         ///< of a text that is no file: what it looks like, for people
   std::string_view when;         ///< where it has an effect, see `has_effect`; empty: everywhere
   std::string_view description;  ///< unit, meaning, [source]
   bool everyday = false;         ///< one of the dozen that --help shows

@@ -46,7 +46,7 @@ class FolderSource final : public SampledSource {
  public:
   FolderSource(const std::string& folder, const FrameSourceOptions& options)
       : folder_(folder),
-        rate_hz_(options.frame_rate_hz.value_or(options.image_rate_hz)),
+        rate_hz_(options.frame_rate_hz.value_or(kImageRate_hz)),
         look_ahead_(options.look_ahead) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       if (entry.is_regular_file() && is_image_name(entry.path())) files_.push_back(entry.path().string());

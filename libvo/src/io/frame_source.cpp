@@ -42,14 +42,18 @@ std::optional<int> camera_number(std::string_view walk) {
 
 void check(const FrameSourceOptions& options) {
   const auto is_rate = [](double rate_hz) { return rate_hz > 0 && std::isfinite(rate_hz); };
-  if (!is_rate(options.image_rate_hz) || (options.frame_rate_hz && !is_rate(*options.frame_rate_hz)))
-    throw std::invalid_argument("open_frame_source: frame rates must be positive and finite");
+  if (options.frame_rate_hz && !is_rate(*options.frame_rate_hz))
+    throw std::invalid_argument("open_frame_source: frame_rate_hz must be positive and finite");
   if (options.colour_width_px < 0)
     throw std::invalid_argument("open_frame_source: colour_width_px must be >= 0");
 }
 
 std::unique_ptr<SampledSource> open_as_it_is(const std::string& walk, const FrameSourceOptions& options) {
-  if (const std::optional<int> number = camera_number(walk)) return open_camera(*number);
+  if (const std::optional<int> number = camera_number(walk)) {
+    if (options.frame_rate_hz)
+      throw Error(walk, "has times of its own, those of arrival", "no frame-rate-hz for a camera");
+    return open_camera(*number);
+  }
   if (is_live(walk)) return open_video(walk, options);
   std::error_code error;
   const fs::file_status status = fs::status(walk, error);

@@ -244,6 +244,32 @@ TEST(Resolve, OdometryIsByStepsOrHybrid) {
   expect_refused(settings, kOdometry, "motion: is sad; expected hybrid or steps");
 }
 
+TEST(StageOptions, APartOfThePicturesAndAMask) {
+  Settings settings;
+  settings.crop = "16,0,64,40";
+  settings.mask = "bonnet.png";
+  settings.frame_rate_hz = 12.5;
+  const vo::FrameSourceOptions frames = place::stage_options(settings).walk.frames;
+  EXPECT_EQ(frames.crop, cv::Rect(16, 0, 64, 40));
+  EXPECT_EQ(frames.mask, "bonnet.png");
+  EXPECT_EQ(frames.frame_rate_hz, 12.5);
+  for (const char* const bad : {"16,0,64", "16,0,64,40,1", "16;0;64;40", "-1,0,64,40", "0,0,0,40"}) {
+    settings.crop = bad;
+    EXPECT_THROW(place::stage_options(settings), vo::Error) << bad;
+  }
+}
+
+TEST(StageOptions, ATrajectoryOfMotionAndOneOfASurveyAreReadAlike) {
+  Settings settings;
+  EXPECT_FALSE(place::survey_options(settings).max_gap_s);
+  settings.axes = "camera";
+  settings.motion_file_gap_s = 5;
+  EXPECT_EQ(place::survey_options(settings).axes, vo::TrajectoryAxes::kCamera);
+  EXPECT_EQ(place::survey_options(settings).max_gap_s, 5);
+  EXPECT_EQ(place::stage_options(settings).motion_file_form.axes, vo::TrajectoryAxes::kCamera);
+  EXPECT_EQ(place::stage_options(settings).motion_file_fit.max_gap_s, 5);
+}
+
 /// A default of the table is the stage's own, so that a caller of the stage by itself gets the same.
 TEST(StageOptions, DefaultsAreThoseOfTheStages) {
   const place::StageOptions resolved = place::stage_options(place::resolve({}, {.route_has_poses = true}));
@@ -251,7 +277,7 @@ TEST(StageOptions, DefaultsAreThoseOfTheStages) {
   EXPECT_EQ(resolved.walk.thumbnail.width, stages.walk.thumbnail.width);
   EXPECT_EQ(resolved.walk.thumbnail.height, stages.walk.thumbnail.height);
   EXPECT_EQ(resolved.walk.preview_width_px, stages.walk.preview_width_px);
-  EXPECT_EQ(resolved.walk.frames.image_rate_hz, stages.walk.frames.image_rate_hz);
+  EXPECT_EQ(resolved.walk.frames.frame_rate_hz, stages.walk.frames.frame_rate_hz);
   EXPECT_EQ(resolved.walk.tracker.fov_deg, stages.walk.tracker.fov_deg);
   EXPECT_EQ(resolved.walk.vo.fov_deg, stages.walk.vo.fov_deg);
   EXPECT_EQ(resolved.walk.tracker.width_px, stages.walk.tracker.width_px);

@@ -47,7 +47,7 @@ TEST(ReadWalk, KeepsTimesThumbnailsAndPreviews) {
   const auto place_px = places(0, std::vector<double>(20, 2.5));
   write_walk(folder.path(), wall, place_px);
   const vo::Walk walk =
-      vo::read_walk(folder.path().string(), {.frames = {.image_rate_hz = 10}, .preview_width_px = 32});
+      vo::read_walk(folder.path().string(), {.frames = {.frame_rate_hz = 10}, .preview_width_px = 32});
   EXPECT_EQ(walk.source, folder.path().string());
   EXPECT_EQ(walk.frame_width_px, Wall::kWidth);
   EXPECT_EQ(walk.frame_height_px, Wall::kHeight);
@@ -153,9 +153,15 @@ TEST(ReadWalk, SaysWhereTheClockJumps) {
   EXPECT_EQ(walk.gaps[0].frame, 10U);
   EXPECT_NEAR(walk.gaps[0].length_s, 2.1, 1e-9);
   EXPECT_EQ(walk.gaps[1].frame, 20U);
-  ASSERT_THAT(walk.warnings, SizeIs(1));  // the short one is filled
-  EXPECT_THAT(walk.warnings[0],
-              testing::StartsWith("walk.mp4: no frames for 8.1 s, from 3.90 s on (frame 19)"));
+  ASSERT_THAT(walk.warnings, SizeIs(2));
+  EXPECT_EQ(
+      walk.warnings[0],
+      "walk.mp4: no frames for 8.1 s, from 3.90 s on (frame 19); what was walked in it is not known, and "
+      "no sequence crosses it");
+  EXPECT_EQ(
+      walk.warnings[1],
+      "walk.mp4: no frames for 2.1 s, from 0.90 s on (frame 9); what was walked in it is taken from the "
+      "pace around it");
   EXPECT_FALSE(walk.track->frames[20].valid);
   EXPECT_EQ(walk.track->frames[20].loss, vo::TrackLoss::kGap);
 }

@@ -20,12 +20,13 @@ struct Frame {
   cv::Mat colour;          ///< of a video that was asked for it: BGR, small, upright; else empty
 };
 
+inline constexpr double kImageRate_hz = 30;  ///< of a folder of images (SSS 3.1: 25-30)
+
 /// Settings of `open_frame_source`.
 struct FrameSourceOptions {
-  double image_rate_hz =
-      30;  ///< frames per second of a folder of images, which carries no times (SSS 3.1: 25-30)
-  /// Frames per second of any recording, instead of the times it has; for one whose times are not those of
-  /// the walk (slow motion, time lapse) and whose file does not say so.
+  /// Frames per second, instead of the times that a recording has, for one whose times are not those of the
+  /// walk (slow motion, time lapse) and whose file does not say so. None: a folder of images, which carries
+  /// no times, has `kImageRate_hz`. Refused for a camera, whose pictures come when they come.
   std::optional<double> frame_rate_hz;
   int colour_width_px = 0;  ///< pixels, at most, of a video's pictures in colour; 0: none
   /// The part of every picture, upright and with square pixels, that is read. None: black bars are found and

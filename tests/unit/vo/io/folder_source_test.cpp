@@ -34,7 +34,7 @@ TEST(FolderSource, IsReadInNaturalOrder) {
   write_image(folder / "2.png", 20);
   write_image(folder / "1.png", 10);
   folder.write("notes.txt", "no image");
-  const auto source = vo::open_frame_source(folder.path().string(), {.image_rate_hz = 10});
+  const auto source = vo::open_frame_source(folder.path().string(), {.frame_rate_hz = 10});
   EXPECT_EQ(source->expected_frames(), 3);
   const auto frames = read_all(*source);
   ASSERT_EQ(frames.size(), 3U);
@@ -71,7 +71,7 @@ TEST(FolderSource, OneBrokenImageAmongManyIsLeftOut) {
   for (int i = 1; i <= 20; ++i) write_image(folder / fmt::format("{}.png", i), 10 * i);
   folder.write("1.png", "no png");
   folder.write("7.png", "");
-  const auto source = vo::open_frame_source(folder.path().string(), {.image_rate_hz = 10});
+  const auto source = vo::open_frame_source(folder.path().string(), {.frame_rate_hz = 10});
   const auto frames = read_all(*source);
   ASSERT_EQ(frames.size(), 18U);
   EXPECT_EQ(frames[0].image.at<uchar>(0, 0), 20);
