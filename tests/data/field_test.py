@@ -123,7 +123,7 @@ class FieldTest(unittest.TestCase):
 
     def test_lines_as_programs_write_them(self):
         for name, warned in (("nan.tum", "left out"), ("dup.tum", "left out"), ("header.tum", ""), ("comma.tum", ""), ("bom.tum", ""),
-                             ("unsorted.tum", "order"), ("nonunit.tum", "")):
+                             ("unsorted.tum", "sorted"), ("nonunit.tum", "")):
             with self.subTest(name):
                 said, traverse = self.trajectory(name)
                 self.assertAlmostEqual(self.surveyed_m(traverse), CORRIDOR_M, delta=1)
@@ -196,7 +196,7 @@ class FieldTest(unittest.TestCase):
     def test_every_other_second_at_half_the_rate(self):
         summary, _ = self.odometry(self.video("half_rate_by_seconds.mp4"), "--step-length", "0.691")
         self.assertAlmostEqual(summary["steps"], 70, delta=1)
-        self.assertAlmostEqual(summary["distance"], 48.4, delta=0.8)
+        self.assertAlmostEqual(summary["distance"], 48.4, delta=1.04)  # a step and a half
 
     def test_half_the_rate_gives_the_same_keyframes(self):
         halved, _ = self.keyframes(self.video("half_rate.mp4"))
