@@ -68,6 +68,7 @@ void demo(const DemoOptions& options) {
   place::Settings by_steps;
   by_steps.descriptor = kDemoDescriptor;
   by_steps.motion = "steps";
+  by_steps.search = "lines";  // SeqSLAM's, with and without its walks brought to one speed
 
   const fs::path folder = options.output;
   prepare_run_directory(folder, {"day", "night", "route.db", "vanilla", "normalised", "overview.png"},

@@ -86,6 +86,7 @@ place::Settings vanilla_like(const DemoRun& run, const DrawnWalk& day, const Dra
   place::Settings settings;
   settings.descriptor = kDemoDescriptor;
   settings.motion = "none";
+  settings.search = "lines";
   settings.every = std::max(1, static_cast<int>(std::lround(frames / keyframes)));
   return settings;
 }

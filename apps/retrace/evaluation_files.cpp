@@ -53,8 +53,19 @@ ordered_json metrics_json(const place::RunEvaluation& run) {
                     {"recall_at_100_precision", evaluation.recall_at_100_precision},
                     {"recall_at_1", evaluation.recall_at_1},
                     {"accepted", point_json(run.accepted)},
+                    {"calibration_error", nullptr},
                     {"error", nullptr},
                     {"counting", kCounting}};
+  if (run.calibration) {
+    json["calibration_error"] = run.calibration->error;
+    for (const place::ReliabilityBin& bin : run.calibration->bins) {
+      json["reliability"].push_back({{"matches", bin.matches},
+                                     {"lowest", bin.lowest},
+                                     {"highest", bin.highest},
+                                     {"mean", bin.mean},
+                                     {"right", bin.right}});
+    }
+  }
   if (const auto& e = evaluation.errors) {
     json["error"] = {{"p50", e->p50}, {"p75", e->p75}, {"p90", e->p90},
                      {"p95", e->p95}, {"p99", e->p99}, {"max", e->max}};

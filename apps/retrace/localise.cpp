@@ -38,7 +38,9 @@ void print_table(const LocaliseOptions& options, const vo::Walk& walk, const pla
   row("matched", count([](const place::Match& m) { return m.place.has_value(); }),
       fmt::format("{} on part of a line", count([](const place::Match& m) { return m.partial; })));
   row("accepted", count([](const place::Match& m) { return m.accepted; }),
-      fmt::format("score {:g} or more", run.settings.accept_score.value_or(0)));
+      run.settings.accept_score
+          ? fmt::format("score {:g} or more", *run.settings.accept_score)
+          : fmt::format("probability {:g} or more", run.settings.accept_probability.value_or(0)));
   for (const place::Traverse& traverse : route.traverses)
     row("route keyframes", traverse.keyframes.size(), traverse.name);
   fmt::print("see {}\n", (fs::path(options.output) / "report.html").string());

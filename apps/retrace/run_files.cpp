@@ -52,6 +52,18 @@ ordered_json drift_summary(const place::QueryTrajectory& trajectory) {
           {"turn_scale", walk.turn_scale.back()}};
 }
 
+ordered_json probability_summary(const place::Run& run) {
+  switch (run.probability_source) {
+    case place::ProbabilitySource::kDecoys:
+      return {{"given", true}, {"by", "the walk played backwards"}, {"wrong_share", run.wrong_share}};
+    case place::ProbabilitySource::kSearch:
+      return {{"given", true}, {"by", "the search alone: fewer than ten matches"}};
+    case place::ProbabilitySource::kNone:
+      break;
+  }
+  return {{"given", false}};
+}
+
 ordered_json summary(const place::Route& route, const std::string& route_path, const vo::Walk& walk,
                      const place::Run& run) {
   std::size_t matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
@@ -74,13 +86,20 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
                     {"accepted", accepted},
                     {"partial", partial},
                     {"partial_accepted", partial_accepted},
-                    {"accept_score", run.settings.accept_score.value_or(0)},
+                    {"search", run.settings.search.value_or("openseqslam")},
+                    {"accept_score", nullptr},
+                    {"accept_probability", nullptr},
                     {"sequence_length", run.sequence_length},
                     {"lines", run.lines},
                     {"sampling_unit", run.sampled.unit},
                     {"relative_scale", run.sampled.scale},
                     {"warnings", warnings},
                     {"version", place::kVersion}};
+  if (run.settings.accept_score) json["accept_score"] = *run.settings.accept_score;
+  if (run.settings.accept_probability) json["accept_probability"] = *run.settings.accept_probability;
+  json["probability"] = probability_summary(run);
+  json["cells_looked_at"] = run.looked_at;
+  for (const std::string& warning : run.warnings) json["warnings"].push_back(warning);
   json["drift"] = drift_summary(run.drift);
   for (const place::Traverse& traverse : route.traverses) {
     json["traverses"].push_back({{"name", traverse.name}, {"keyframes", traverse.keyframes.size()}});
@@ -180,6 +199,10 @@ WrittenRun localise_into(const fs::path& folder, const place::Route& route, cons
   MatrixKeeper keeper(route, whole_matrices);
   place::Run run = place::localise(route, walk, settings, std::ref(keeper));
   for (const std::string& warning : run.sampled.warnings) spdlog::warn("{}", warning);
+  for (const std::string& warning : run.warnings) spdlog::warn("{}", warning);
+  if (run.settings.accept_probability && run.probability_source == place::ProbabilitySource::kNone)
+    spdlog::warn("no probabilities: fewer than {} matches to learn from; accepted by their score",
+                 place::kFewestScores);
   if (!run.drift.why_not.empty() && place::has_poses(route) && run.settings.correct_drift.value_or(false))
     spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
                  run.drift.why_not);

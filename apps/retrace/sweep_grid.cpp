@@ -30,7 +30,9 @@ constexpr std::array kColumns{Column{"max_f1", &CellResult::max_f1},
 /// pictures and points kept of them, nor what makes no difference to precision and recall.
 bool can_vary(const place::Setting& setting) {
   if (setting.name == "descriptor") return true;
-  constexpr std::array kNotHere{"compat", "sequence-length-m", "threads", "accept-score", "correct-drift"};
+  constexpr std::array kNotHere{"compat",        "sequence-length-m",  "threads",
+                                "accept-score",  "accept-probability", "correct-drift",
+                                "fuse-traverses"};
   return !setting.at_reading && std::ranges::find(kNotHere, setting.name) == kNotHere.end();
 }
 

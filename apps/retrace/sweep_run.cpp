@@ -32,6 +32,7 @@ struct Sampled {
   std::vector<std::size_t> query_frames;
   std::vector<std::int64_t> reference_frames;
   place::CostMatrix cost;
+  place::SearchOptions search;  ///< the gaps and steps of the query
 };
 
 /// Both walks on one route, up to the cost matrix.
@@ -42,11 +43,12 @@ Sampled sample(const Walks& walks, const place::Settings& given) {
   const place::StageOptions options = place::stage_options(settings);
   const place::SampledWalk query = place::sample_walk(walks.query, options.sampling, &route);
   const place::Traverse& reference = route.traverses.front();
-  Sampled sampled{.query_frames = query.frames, .reference_frames = {}, .cost = {}};
+  Sampled sampled{.query_frames = query.frames, .reference_frames = {}, .cost = {}, .search = {}};
   for (const place::Keyframe& keyframe : reference.keyframes)
     sampled.reference_frames.push_back(keyframe.frame);
   const place::RouteMatchingOptions& matching = options.matching;
   sampled.cost = place::cost_matrix_on_route(query, reference, matching);
+  sampled.search = place::search_on_route(reference, walks.query.time_s, query, matching);
   return sampled;
 }
 
@@ -59,11 +61,14 @@ int every_like(const Walks& walks, const place::Settings& settings) {
 }
 
 std::optional<CellResult> run_cell(const Sampled& sampled, const place::CostMatrix& enhanced,
-                                   const place::SequenceSearchOptions& search,
+                                   const place::RouteMatchingOptions& matching,
                                    const place::GroundTruth& truth, const place::Tolerance& tolerance) {
-  if (enhanced.references < static_cast<std::size_t>(search.length)) return {};
+  place::SearchOptions search = sampled.search;
+  search.sequence = matching.search;
+  if (enhanced.references < static_cast<std::size_t>(search.sequence.length)) return {};
   std::vector<place::Match> matches;
-  for (const place::SequenceMatch& found : place::search_sequences(enhanced, search)) {
+  for (const place::SequenceMatch& found :
+       place::search_method(matching.method).search(enhanced, search).matches) {
     place::Match& match = matches.emplace_back();
     match.query_frame = static_cast<std::int64_t>(sampled.query_frames[matches.size() - 1]);
     match.score = found.score;
@@ -205,7 +210,7 @@ class Sweep {
       std::vector<std::optional<CellResult>> found(count);
       if (sampled) {
         vo::parallel_for(count, [&](std::size_t i) {
-          found[i] = run_cell(*sampled, enhanced, stages(missing_[begin + i]).matching.search, truth_,
+          found[i] = run_cell(*sampled, enhanced, stages(missing_[begin + i]).matching, truth_,
                               options_.truth.tolerance);
         });
       }

@@ -156,6 +156,10 @@ Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
   run.matches = std::move(found.matches);
   run.sequence_length = found.sequence_length;
   run.lines = found.lines;
+  run.probability_source = found.probability_source;
+  run.wrong_share = found.wrong_share;
+  run.looked_at = found.looked_at;
+  run.warnings = std::move(found.warnings);
   run.drift = corrected(route, walk, run, options);
   if (run.drift.why_not.empty()) run.trajectory = poses_of(run.drift.corrected);
   return run;

@@ -9,8 +9,7 @@ namespace {
 
 // Metres between keyframes of metric motion: lines of ten find most from 0.8 to 0.9 m on (tests/RESULTS.md).
 constexpr double kUsualSpacing_m = 0.85;
-constexpr double kUsualN = 6;  // of SSS Eq. 4
-constexpr double kAcceptScore = 0.7;
+constexpr double kUsualN = 6;                 // of SSS Eq. 4
 constexpr double kAcceptOriginalScore = 0.1;  // 1 - best / second best, another scale than ours
 
 bool is(const std::optional<std::string>& value, std::string_view what) {
@@ -126,8 +125,8 @@ Settings resolve(const Settings& given, const ResolveContext& context) {
     }
     if (setting.name == "motion") choose_density(settings, own);
   }
-  if (serves(context.purpose, setting_named("accept-score")) && !settings.accept_score)
-    settings.accept_score = is(settings.compat, "none") ? kAcceptScore : kAcceptOriginalScore;
+  const bool by_score = settings.compat && !is(settings.compat, "none");
+  if (by_score && !settings.accept_score) settings.accept_score = kAcceptOriginalScore;
   check_together(settings);
   return settings;
 }

@@ -200,6 +200,8 @@ void put_search(const Settings& s, StageOptions& options) {
       s.candidates, matching.candidate_use,
       {{"auto", CandidateUse::kAuto}, {"never", CandidateUse::kNever}, {"always", CandidateUse::kAlways}});
   if (s.max_shift_px) options.sampling.max_shift_px = matching.max_shift_px = s.max_shift_px;
+  put(s.search, matching.method);
+  put(s.fuse_traverses, matching.fuse_traverses);
   put_choice(s.enhance, matching.enhancement.method,
              {{"standardise", Enhancement::kStandardise},
               {"local", Enhancement::kLocal},
@@ -212,7 +214,8 @@ void put_search(const Settings& s, StageOptions& options) {
   put(s.v_max, matching.search.v_max);
   put(s.min_fraction, matching.search.min_fraction);
   put(s.uniqueness_window, matching.search.uniqueness_window);
-  put(s.accept_score, matching.accept_score);
+  matching.accept_score = s.accept_score;
+  put(s.accept_probability, matching.accept_probability);
   if (s.compat && s.compat != "none") matching.openseqslam = original_options(s);
 }
 

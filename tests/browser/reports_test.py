@@ -85,7 +85,7 @@ class Walks:
         self.truth = ["--query-truth", folder / "rain/truth.csv", "--reference-truth", folder / "day/truth.csv"]
         check("build", self.day, "-o", folder / "route.db", "--truth", folder / "day/truth.csv", "--sampling-n", 2)
         # Half of the matches are refused, so that there is something to choose from.
-        self.run = self.localised("run", "--accept-score", 1.5)
+        self.run = self.localised("run", "--search", "lines", "--accept-score", 1.5)
 
     def localised(self, name, *options):
         check("localise", self.rain, "--route", self.folder / "route.db", "-o", self.folder / name, *options)
@@ -220,8 +220,8 @@ class ReportsTest(unittest.TestCase):
         self.assertIn("retrace evaluate", self.script("return document.body.textContent"))
 
     def test_evaluate(self):
-        run = self.walks.evaluated(self.walks.localised("evaluated", "--accept-score", 1.5))
-        self.open(run / "report.html", charts=7, matrices=1, strips=1)
+        run = self.walks.evaluated(self.walks.localised("evaluated", "--search", "lines", "--accept-score", 1.5))
+        self.open(run / "report.html", charts=8, matrices=1, strips=1)
         self.assertIn("Max-F1", self.script("return document.querySelector('dl.headline').textContent"))
 
         matrix = self.all("figure.matrix")[0]

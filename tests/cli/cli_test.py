@@ -18,7 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from support.retrace_cli import RETRACE, SOURCE, check, draw_walk, read_json, rows, run, street, video, write_truth  # noqa: E402
 
 MATCH_COLUMNS = ["query_frame", "query_time_s", "traverse", "reference_frame", "reference_time_s",
-                 "reference_distance_m", "score", "accepted"]
+                 "reference_distance_m", "score", "accepted", "probability", "sd_keyframes", "sd_m"]
 
 
 def positions(speeds):
@@ -117,7 +117,7 @@ class CliTest(unittest.TestCase):
               self.walks.reference_truth, "--tolerance-m", "0.4")
         metrics = read_json(run_folder / "metrics.json")
         for key in ("queries", "with_truth", "max_f1", "max_f1_threshold", "precision", "recall", "auc_pr",
-                    "recall_at_100_precision", "recall_at_1"):
+                    "recall_at_100_precision", "recall_at_1", "accepted", "calibration_error"):
             self.assertIn(key, metrics)
         self.assertGreaterEqual(metrics["max_f1"], 0.9)
         curve = rows(run_folder / "pr.csv")
@@ -639,7 +639,7 @@ class CliTest(unittest.TestCase):
               "--descriptor", "file", "--descriptor-file", self.folder / "reference.npy", "--descriptor-metric", "l1")
         self.refused("localise", self.walks.query, "--route", route, "-o", run_folder, says="descriptor-file: is missing", leaves=("run",))
         check("localise", self.walks.query, "--route", route, "--descriptor-file", self.folder / "query.npy", "-o", run_folder,
-              "--search-range-rad", 0.6)
+              "--search", "lines", "--search-range-rad", 0.6)
         check("evaluate", run_folder, "--query-truth", self.walks.query_truth, "--reference-truth", self.walks.reference_truth,
               "--tolerance-m", 0.8)
         self.assertGreaterEqual(read_json(run_folder / "metrics.json")["max_f1"], 0.8)

@@ -17,12 +17,15 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import certainty  # noqa: E402
 from support.retrace_cli import SOURCE, check, read_json, rows  # noqa: E402
 
 DATA = pathlib.Path(os.environ.get("RETRACE_DATA", SOURCE.parent / "shared" / "data"))
 SIM = DATA / "sim"
 VANILLA = ("--motion", "none", "--every", 1)
 THUMBNAIL = ("--descriptor", "thumbnail")
+LINES = ("--search", "lines")  # SeqSLAM's
 
 
 def sim_truth(reference, query):
@@ -60,10 +63,10 @@ class AccuracyTest(unittest.TestCase):
     # ---- places found by what keyframes are compared by as a rule ----
 
     def reaches(self, reference, query, truth, build, least):
-        """Max-F1 at sequence lengths, each no less than it must be."""
+        """Max-F1 of lines of some lengths, each no less than it must be: what keyframes are compared by shows in few of them."""
         for length, value in least.items():
             with self.subTest(length=length):
-                metrics = self.metrics(reference, query, truth, build, ("--sequence-length", length))
+                metrics = self.metrics(reference, query, truth, build, (*LINES, "--sequence-length", length))
                 self.assertGreaterEqual(metrics["max_f1"], value)
 
     def test_park_in_autumn_and_winter(self):
@@ -99,12 +102,42 @@ class AccuracyTest(unittest.TestCase):
         self.reaches(SIM / "corridor_a.mp4", SIM / "corridor_b.mp4", sim_truth("corridor_a", "corridor_b"), (),
                      {1: 0.98, 10: 0.99})
 
+    # ---- one path, and how far its probabilities can be trusted ----
+
+    def test_a_path_finds_more_than_lines_and_knows_how_sure_it_is(self):
+        together = certainty.Outcome()
+        with tempfile.TemporaryDirectory() as name:
+            pairs = certainty.real_pairs(pathlib.Path(name)) + certainty.drawn_pairs()
+            for pair in pairs:
+                with self.subTest(pair=pair.name):
+                    path = self.outcome(pair, "path")
+                    lines = self.outcome(pair, "lines")
+                    together.add(path)
+                    # One query of as many as there are, at the least.
+                    self.assertGreaterEqual(path.max_f1(), lines.max_f1() - max(0.01, 1 / path.with_truth))
+                    if path.with_truth < 100:
+                        continue
+                    self.assertLessEqual(path.calibration_error(), 0.10)
+                    for asked in certainty.ASKED:
+                        precision, recall = path.accepted(asked)
+                        self.assertGreaterEqual(precision, asked - 0.03)
+                        self.assertGreaterEqual(recall, 0.9 * path.best_recall(asked))
+        self.assertLessEqual(together.calibration_error(), 0.05)
+        for asked in certainty.ASKED:
+            self.assertGreaterEqual(together.accepted(asked)[0], asked - 0.03)
+
+    def outcome(self, pair, search):
+        self.metrics(pair.reference, pair.query, pair.truth, pair.build, ("--search", search))
+        result = certainty.outcome(self.folder / "run", pair.truth[-1])
+        print(f"\n  {certainty.row_of(pair.name, search, result)}", end=" ", flush=True)
+        return result
+
     # ---- the same by thumbnails, as in the papers ----
 
     def test_gopro_footpath_by_thumbnails(self):
         walks = DATA / "gopro_footpath"
         metrics = self.metrics(walks / "reference.mp4", walks / "query.mp4",
-                               ("--pairs", walks / "pairs.csv", "--tolerance-frames", 17), THUMBNAIL, ("--sequence-length", 10))
+                               ("--pairs", walks / "pairs.csv", "--tolerance-frames", 17), THUMBNAIL, (*LINES, "--sequence-length", 10))
         self.assertGreaterEqual(metrics["max_f1"], 0.93)
         self.assertLessEqual(metrics["error"]["p50"] / 17, 0.43)  # as above
 
@@ -114,7 +147,7 @@ class AccuracyTest(unittest.TestCase):
         for enhance, length, least in (("local", 10, 0.84), ("local", 20, 0.92), ("standardise", 10, 0.87), ("standardise", 20, 0.94)):
             with self.subTest(enhance=enhance, length=length):
                 metrics = self.metrics(walks / "summer", walks / "winter", truth, THUMBNAIL + VANILLA,
-                                       ("--enhance", enhance, "--sequence-length", length))
+                                       (*LINES, "--enhance", enhance, "--sequence-length", length))
                 self.assertGreaterEqual(metrics["max_f1"], least)
 
     def test_corridor_by_thumbnails(self):
@@ -123,13 +156,13 @@ class AccuracyTest(unittest.TestCase):
             with self.subTest(length=length):
                 metrics = self.metrics(walks / "reference", walks / "query",
                                        ("--pairs", walks / "pairs.csv", "--tolerance-frames", 2),
-                                       THUMBNAIL + VANILLA, ("--sequence-length", length))
+                                       THUMBNAIL + VANILLA, (*LINES, "--sequence-length", length))
                 self.assertGreaterEqual(metrics["max_f1"], least)
 
     def test_street_by_day_and_night_by_thumbnails(self):
         day, night = SIM / "street_day.mp4", SIM / "street_night.mp4"
         truth = sim_truth("street_day", "street_night")
-        search = ("--sequence-length", 20, "--search-range-rad", 0.1)
+        search = (*LINES, "--sequence-length", 20, "--search-range-rad", 0.1)
         fixed = self.metrics(day, night, truth, (*THUMBNAIL, "--motion", "none", "--every", 8), ("--enhance", "local", *search))
         self.assertLess(fixed["max_f1"], 0.1)
         local = self.metrics(day, night, truth, THUMBNAIL, ("--enhance", "local", *search))
@@ -286,7 +319,7 @@ class AccuracyTest(unittest.TestCase):
 
     def test_steps_resample_as_well_as_alignment_error(self):
         for enhance in ("local", "standardise"):
-            search = ("--sequence-length", "20", "--search-range-rad", "0.1", "--enhance", enhance)
+            search = (*LINES, "--sequence-length", "20", "--search-range-rad", "0.1", "--enhance", enhance)
             walks = (SIM / "street_day.mp4", SIM / "street_night.mp4", sim_truth("street_day", "street_night"))
             survey = ("--truth", SIM / "street_day.csv")
             by_steps = self.metrics(*walks, build=(*survey, "--motion", "steps"), localise=search)

@@ -108,6 +108,25 @@ Chart precision_recall_chart(const RunTruth& truth) {
   return chart;
 }
 
+std::optional<Chart> reliability_chart(const RunTruth& truth) {
+  if (!truth.calibration) return {};
+  Series groups{.name = "groups of matches", .colour = "blue", .mark = "circle", .size_px = 7};
+  for (const place::ReliabilityBin& bin : truth.calibration->bins) {
+    groups.x.push_back(bin.mean);
+    groups.y.push_back(bin.right);
+    groups.notes.push_back(
+        fmt::format("{} matches of probability {:.3f} to {:.3f}", bin.matches, bin.lowest, bin.highest));
+  }
+  return Chart{.title = fmt::format("expected calibration error {:.3f}", truth.calibration->error),
+               .x_title = "probability",
+               .y_title = "share that was right",
+               .series = {std::move(groups),
+                          {.name = "as claimed", .x = {0, 1}, .y = {0, 1}, .colour = "grey", .dash = {7, 5}}},
+               .x_range = std::array{0.0, 1.0},
+               .y_range = std::array{0.0, 1.0},
+               .size = "tall"};
+}
+
 std::optional<Chart> error_chart(const RunView& run) {
   const RunTruth& truth = *run.truth;
   if (!truth.evaluation.errors) return {};

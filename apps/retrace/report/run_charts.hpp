@@ -8,6 +8,8 @@
 namespace retrace {
 
 Chart precision_recall_chart(const RunTruth& truth);
+/// The share of right matches against their probability; none without probabilities.
+std::optional<Chart> reliability_chart(const RunTruth& truth);
 
 // Each gives none where the run lacks what it would show.
 std::optional<Chart> error_chart(const RunView& run);

@@ -16,10 +16,15 @@ std::string percent(double share) {
   return fmt::format("{:.1f} %", 100 * share);
 }
 
+std::string acceptance(const RunCounts& counts) {
+  if (counts.accept_score) return fmt::format("score {:g} or more", *counts.accept_score);
+  return fmt::format("probability {:g} or more", counts.accept_probability.value_or(0));
+}
+
 void put_counts(Page& page, const RunCounts& counts) {
   page.headlines(
       {{"Query keyframes", std::to_string(counts.queries), fmt::format("of {} frames", counts.query_frames)},
-       {"Accepted", std::to_string(counts.accepted), fmt::format("score {:g} or more", counts.accept_score)},
+       {"Accepted", std::to_string(counts.accepted), acceptance(counts)},
        {"Refused", std::to_string(counts.matched - counts.accepted), "matched, less sure"},
        {"Sequence", std::to_string(counts.sequence_length), "keyframes on a line"},
        {"Relative scale", fmt::format("{:.3f}", counts.relative_scale),
@@ -41,6 +46,9 @@ void put_scores(Page& page, const RunTruth& truth) {
       {"Area under the curve", fmt::format("{:.3f}", e.auc_pr), "average precision"},
       {"Recall", percent(e.recall_at_100_precision), "at 100 % precision"},
       {"Recall@1", percent(e.recall_at_1), "every match taken"}};
+  if (truth.calibration)
+    numbers.push_back(
+        {"Calibration error", fmt::format("{:.3f}", truth.calibration->error), "of probabilities"});
   if (e.errors) {
     numbers.push_back({"Median error", fmt::format("{:.3g} {}", e.errors->p50, unit),
                        fmt::format("95 % within {:.3g} {}", e.errors->p95, unit)});
@@ -96,6 +104,11 @@ std::string run_report(const fs::path& folder, const nlohmann::ordered_json& dat
         "Every point is a threshold of the score. The star is the threshold of the highest F1, the diamond "
         "the run's own acceptance; dashed lines join points of equal F1.");
     put_operating_points(page, *truth);
+    page.chart(
+        "How far probabilities can be trusted", reliability_chart(*truth),
+        "Matches in ten groups of about equal probability: the share that was right against the mean "
+        "probability. On the dashed line a probability means what it says; above it, matches are surer "
+        "than they claim.");
     page.chart("Error along the walk", error_chart(view),
                "Errors beyond the upper edge are drawn on it; hover for their values.");
   } else {

@@ -32,6 +32,11 @@ WalkColumns columns(const ordered_json& json, std::string name) {
           .y_m = numbers(json, "y_m")};
 }
 
+std::optional<double> number_in(const ordered_json& json, const char* name) {
+  if (!json.contains(name) || !json[name].is_number()) return {};
+  return json[name].get<double>();
+}
+
 std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) return {};
@@ -45,7 +50,8 @@ std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
                    .partial = count("partial"),
                    .partial_accepted = count("partial_accepted"),
                    .sequence_length = count("sequence_length"),
-                   .accept_score = json.value("accept_score", 0.0),
+                   .accept_score = number_in(json, "accept_score"),
+                   .accept_probability = number_in(json, "accept_probability"),
                    .relative_scale = json.value("relative_scale", 1.0),
                    .query = json.value("query", std::string{}),
                    .route = json.value("route", std::string{})};

@@ -28,7 +28,8 @@ struct WalkColumns {
 struct RunCounts {
   std::size_t queries = 0, query_frames = 0, matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
   std::size_t sequence_length = 0;
-  double accept_score = 0, relative_scale = 1;
+  std::optional<double> accept_score, accept_probability;
+  double relative_scale = 1;
   std::string query, route;
   std::vector<std::string> warnings;
 };

@@ -62,8 +62,11 @@ struct Run {
   SampledWalk sampled;         ///< its keyframes
   std::vector<Match> matches;  ///< one for each keyframe, in order
   int sequence_length = 0;     ///< keyframes, as used
-  int lines = 0;               ///< distinct lines searched through each pair
-  QueryTrajectory drift;       ///< how the trajectory was corrected, or why not
+  int lines = 0;               ///< distinct lines searched through each pair, where lines are
+  ProbabilitySource probability_source = ProbabilitySource::kNone;  ///< see `RouteMatches`
+  double wrong_share = 1, looked_at = 1;                            ///< see `RouteMatches`
+  std::vector<std::string> warnings;                                ///< of the search
+  QueryTrajectory drift;  ///< how the trajectory was corrected, or why not
   /// The walk's odometry without its drift, in the route's coordinates: a pose for each keyframe, where the
   /// route has poses and the matches bear it out.
   std::optional<vo::Trajectory> trajectory;

@@ -31,7 +31,7 @@ struct ResolveContext {
 ///   an effect where steps are followed.
 /// - `spacing-m` is 0.85 unless `sampling-n` was given; `sampling-n` is 6 where the motion may turn out not
 ///   to be metric, unless `spacing-m` alone was given.
-/// - `accept-score` is 0.7, with `compat` 0.1.
+/// - `accept-score` is 0.1 with `compat`; else it has no value unless given, and `accept-probability` counts.
 /// - `v-min` and `v-max` come together, v-min <= v-max; `motion file` needs `motion-file`; `max-shift-px` is
 ///   less than half of the thumbnail's width.
 ///

@@ -47,7 +47,7 @@ struct Settings {
   std::optional<double> min_step_deg;
 
   // Search
-  std::optional<std::string> compat, candidates;
+  std::optional<std::string> compat, candidates, search;
   std::optional<int> max_shift_px;
   std::optional<std::string> enhance;
   std::optional<int> enhance_window;
@@ -56,7 +56,8 @@ struct Settings {
   std::optional<double> v_min, v_max, search_range_rad;
   std::optional<double> min_fraction;
   std::optional<int> uniqueness_window;
-  std::optional<double> accept_score;
+  std::optional<double> accept_score, accept_probability;
+  std::optional<bool> fuse_traverses;
   std::optional<bool> correct_drift;
 
   // General

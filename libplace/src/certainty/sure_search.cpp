@@ -3,9 +3,17 @@
 #include "place/certainty/decoy_search.hpp"
 #include "place/certainty/place_spread.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace place {
+namespace {
+
+double probability_of(double log_odds) {
+  return 1 / (1 + std::exp(-log_odds));
+}
+
+}  // namespace
 
 SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
                           const SearchOptions& options) {
@@ -30,9 +38,13 @@ SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method
   if (probabilities.status == ProbabilityStatus::kGiven) {
     result.source = ProbabilitySource::kDecoys;
     result.wrong_share = probabilities.wrong_share;
+    if (method.scores_are_log_odds) {
+      for (std::size_t i = 0; i < scores.size(); ++i)
+        probabilities.probability[i] = std::min(probabilities.probability[i], probability_of(scores[i]));
+    }
   } else if (method.scores_are_log_odds) {
     result.source = ProbabilitySource::kSearch;
-    for (const double score : scores) probabilities.probability.push_back(1 / (1 + std::exp(-score)));
+    for (const double score : scores) probabilities.probability.push_back(probability_of(score));
   } else {
     return result;
   }

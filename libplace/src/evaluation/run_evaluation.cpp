@@ -48,6 +48,13 @@ RunEvaluation evaluate(std::span<const Match> matches, const GroundTruth& truth,
   }
   run.evaluation = evaluate(run.queries, run.tolerance);
   run.accepted = accepted_point(matches, run);
+  std::vector<ProbableMatch> probable;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!matches[i].probability) continue;
+    const std::optional<double>& error = run.queries[i].error;
+    probable.push_back({*matches[i].probability, error && *error <= run.tolerance});
+  }
+  if (!probable.empty()) run.calibration = calibration(probable);
   return run;
 }
 

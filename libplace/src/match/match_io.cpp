@@ -36,6 +36,10 @@ bool read_number(std::string_view cell, double& value) {
   return number.has_value();
 }
 
+std::string cell_of(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6g}", *value) : std::string();
+}
+
 // The reference frame comes first among those of the place: it says whether there is one.
 using Column = vo::CsvColumn<Match>;
 constexpr std::array kColumns{
@@ -82,6 +86,21 @@ constexpr std::array kColumns{
              return cell == "1" || cell == "0";
            },
            "0 or 1"},
+    Column{"probability", [](const Match& m) { return cell_of(m.probability); },
+           [](Match& m, std::string_view cell) {
+             return cell.empty() || (read_number(cell, m.probability.emplace()) && *m.probability >= 0 &&
+                                     *m.probability <= 1);
+           },
+           "a probability", false},
+    Column{"sd_keyframes", [](const Match& m) { return cell_of(m.sd_keyframes); },
+           [](Match& m, std::string_view cell) {
+             return cell.empty() || read_number(cell, m.sd_keyframes.emplace());
+           },
+           kNumber, false},
+    Column{
+        "sd_m", [](const Match& m) { return cell_of(m.sd_m); },
+        [](Match& m, std::string_view cell) { return cell.empty() || read_number(cell, m.sd_m.emplace()); },
+        kNumber, false},
 };
 
 }  // namespace

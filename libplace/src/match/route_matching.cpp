@@ -1,13 +1,13 @@
 #include "place/match/route_matching.hpp"
 
-#include "place/match/cost_matrix.hpp"
-#include "place/match/descriptor_costs.hpp"
-#include "place/match/summed_costs.hpp"
+#include "match/joined_traverses.hpp"
+#include "match/traverse_costs.hpp"
+#include "place/match/walk_gaps.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,23 +16,6 @@
 namespace place {
 namespace {
 
-/// Mean metres between neighbouring keyframes of a traverse.
-double keyframe_spacing_m(const Traverse& traverse) {
-  const Keyframe& first = traverse.keyframes.front();
-  const Keyframe& last = traverse.keyframes.back();
-  if (!first.distance_m || !last.distance_m || !(*last.distance_m > *first.distance_m)) {
-    throw vo::Error(fmt::format("traverse '{}'", traverse.name), "has no surveyed distances",
-                    "a surveyed route for a sequence length in metres");
-  }
-  return (*last.distance_m - *first.distance_m) / static_cast<double>(traverse.keyframes.size() - 1);
-}
-
-int sequence_length(const Traverse& traverse, const RouteMatchingOptions& options) {
-  if (!options.sequence_length_m) return options.search.length;
-  return std::max(1,
-                  static_cast<int>(std::lround(*options.sequence_length_m / keyframe_spacing_m(traverse))));
-}
-
 void check_long_enough(const Traverse& traverse, int length) {
   if (traverse.keyframes.size() >= static_cast<std::size_t>(length)) return;
   throw vo::Error(fmt::format("traverse '{}'", traverse.name),
@@ -40,98 +23,8 @@ void check_long_enough(const Traverse& traverse, int length) {
                   "a reference at least as long as the sequence; walk further or lower sequence-length");
 }
 
-/// A match before it is known which traverse counts.
-struct Candidate {
-  std::optional<std::size_t> keyframe;
-  double score = 0;
-  bool partial = false;
-};
-
-std::vector<std::size_t> counted(std::size_t count) {
-  std::vector<std::size_t> all(count);
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
-}
-
-/// The references that are compared with: all, or of very many a shortlist.
-std::vector<std::size_t> references_to_compare(const Descriptors& query, const Descriptors& reference,
-                                               const RouteMatchingOptions& options, int length) {
-  // A shortlist takes less than half as long as comparing all references with 400 queries
-  // (tests/bench/README.md).
-  constexpr std::size_t kManyQueries = 400, kManyReferences = 100'000;
-  const bool many = count_of(query) >= kManyQueries && count_of(reference) >= kManyReferences;
-  if (options.candidate_use == CandidateUse::kAlways ||
-      (options.candidate_use == CandidateUse::kAuto && many)) {
-    CandidateOptions settings = options.candidates;
-    settings.margin = std::max(settings.margin, length);
-    return candidates(query, reference, settings);
-  }
-  return counted(count_of(reference));
-}
-
-/// Two walks as they are compared, by each descriptor.
-struct Compared {
-  std::vector<Descriptors> query, reference;
-  std::vector<std::size_t> columns;  ///< the traverse's keyframes that are compared with
-};
-
-Compared compared(const SampledWalk& sampled, const Traverse& traverse, const DescriptorSet& descriptors,
-                  const RouteMatchingOptions& options, int length) {
-  if (sampled.descriptors.size() != descriptors.size() || traverse.descriptors.size() != descriptors.size())
-    throw std::invalid_argument("match_on_route: walks described by the given descriptors expected");
-  Compared both;
-  for (std::size_t i = 0; i < descriptors.size(); ++i) {
-    both.query.push_back(descriptors[i]->comparable(sampled.descriptors[i]));
-    both.reference.push_back(descriptors[i]->comparable(traverse.descriptors[i]));
-  }
-  both.columns = references_to_compare(both.query.front(), both.reference.front(), options, length);
-  if (both.columns.size() < count_of(both.reference.front()))
-    for (Descriptors& reference : both.reference) reference = select(reference, both.columns);
-  return both;
-}
-
-std::shared_ptr<const DescriptorSet> descriptors_of(const RouteMatchingOptions& options) {
-  if (options.descriptors) return options.descriptors;
-  return make_descriptors({.name = "thumbnail", .patch = options.patch});
-}
-
-/// The costs of one descriptor, or the sum of what several say.
-std::unique_ptr<CostSource> costs_of(const Compared& both, const DescriptorSet& descriptors,
-                                     std::optional<int> max_shift_px) {
-  std::vector<SummedPart> parts;
-  for (std::size_t i = 0; i < descriptors.size(); ++i) {
-    const DescriptorTraits traits = descriptors[i]->traits();
-    parts.push_back(
-        {descriptor_costs(both.query[i], both.reference[i], traits, max_shift_px), traits.prior_queries});
-  }
-  if (parts.size() == 1) return std::move(parts.front().costs);
-  return std::make_unique<SummedCosts>(std::move(parts));
-}
-
-std::vector<Candidate> search_our_way(const SampledWalk& sampled, const Traverse& traverse, std::size_t index,
-                                      const RouteMatchingOptions& options, int length,
-                                      const SearchCallback& callback) {
-  const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
-  const Compared both = compared(sampled, traverse, *descriptors, options, length);
-  const std::unique_ptr<CostSource> costs = costs_of(both, *descriptors, options.max_shift_px);
-  const std::vector<std::size_t>& columns = both.columns;
-  StreamedSearchOptions streamed{.cost = {}, .enhancement = options.enhancement, .search = options.search};
-  streamed.enhancement.prior_queries = prior_queries_of(options);
-  streamed.search.length = length;
-  MatrixCallbacks callbacks;
-  if (callback) {
-    callbacks.cost = [&](const ConstCosts& part) { callback({index, false, part, columns}); };
-    callbacks.enhanced = [&](const ConstCosts& part) { callback({index, true, part, columns}); };
-  }
-  std::vector<Candidate> found;
-  for (const SequenceMatch& match : search_streamed(*costs, streamed, callbacks)) {  // SSS 3.4
-    found.push_back({match.reference ? std::optional(columns[*match.reference]) : std::nullopt, match.score,
-                     match.reference && match.terms < length});
-  }
-  return found;
-}
-
-std::vector<Candidate> search_the_original_way(const SampledWalk& sampled, const Traverse& traverse,
+/// Matches of the original's search, whose score is smaller for surer ones and lies in [0, 1].
+std::vector<SureMatch> search_the_original_way(const SampledWalk& sampled, const Traverse& traverse,
                                                std::size_t index, openseqslam::Options options, int length,
                                                const SearchCallback& callback) {
   options.sequence_length = length;
@@ -149,13 +42,38 @@ std::vector<Candidate> search_the_original_way(const SampledWalk& sampled, const
     callback({index, false, block_of(cost), columns});
     callback({index, true, block_of(enhanced), columns});
   }
-  std::vector<Candidate> candidates;
+  std::vector<SureMatch> matches;
   for (const openseqslam::Match& found : openseqslam::find_matches(enhanced, options)) {
-    // The original's score is smaller for surer matches and lies in [0, 1].
-    candidates.push_back(
-        {found.reference, found.reference ? 1.0 - static_cast<double>(found.score) : 0, false});
+    SequenceMatch match{.reference = found.reference, .terms = length};
+    if (found.reference) match.score = 1 - found.score;
+    matches.push_back({.match = match, .probability = {}, .sd_keyframes = {}});
   }
-  return candidates;
+  return matches;
+}
+
+/// How many keyframes of the traverse the walk's displacement between its own is worth; empty where either
+/// has none.
+std::vector<double> keyframe_steps(const SampledWalk& sampled, const Traverse& traverse) {
+  constexpr double kLongestStep = 1000;  // `PathSearchOptions::is_valid`
+  const double there = traverse.keyframes.back().displacement - traverse.keyframes.front().displacement;
+  if (sampled.displacement.empty() || !(there > 0)) return {};
+  const double unit = there / static_cast<double>(traverse.keyframes.size() - 1);
+  std::vector<double> steps(sampled.frames.size(), 0.0);
+  for (std::size_t q = 1; q < steps.size(); ++q) {
+    for (std::size_t frame = sampled.frames[q - 1] + 1; frame <= sampled.frames[q]; ++frame)
+      steps[q] += sampled.displacement[frame] / unit;
+    steps[q] = std::clamp(steps[q], 0.0, kLongestStep);
+  }
+  return steps;
+}
+
+/// Metres of the way between a keyframe's neighbours, for each keyframe between them; none unless surveyed.
+std::optional<double> local_spacing_m(const Traverse& traverse, std::size_t keyframe) {
+  const std::size_t before = keyframe - std::min<std::size_t>(keyframe, 1);
+  const std::size_t after = std::min(traverse.keyframes.size() - 1, keyframe + 1);
+  const Keyframe &a = traverse.keyframes[before], &b = traverse.keyframes[after];
+  if (before == after || !a.distance_m || !b.distance_m) return {};
+  return std::abs(*b.distance_m - *a.distance_m) / static_cast<double>(after - before);
 }
 
 Place place_of(const Traverse& traverse, std::size_t keyframe) {
@@ -168,22 +86,52 @@ Place place_of(const Traverse& traverse, std::size_t keyframe) {
           .pose = k.pose};
 }
 
-}  // namespace
-
-CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& traverse,
-                                const RouteMatchingOptions& options) {
-  RouteMatchingOptions all = options;
-  all.candidate_use = CandidateUse::kNever;
-  const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
-  const Compared both = compared(sampled, traverse, *descriptors, all, 1);
-  return cost_matrix(*costs_of(both, *descriptors, options.max_shift_px));
+/// Whether a match is taken, by what is known of it.
+bool is_accepted(const Match& match, const RouteMatchingOptions& options) {
+  constexpr double kScore = 0.7;  // of lines, in deviations: for walks too short for probabilities
+  if (options.accept_score || !match.probability) return match.score >= options.accept_score.value_or(kScore);
+  return *match.probability >= options.accept_probability;
 }
 
-double prior_queries_of(const RouteMatchingOptions& options) {
-  const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
-  double most = 0;
-  for (const auto& descriptor : *descriptors) most = std::max(most, descriptor->traits().prior_queries);
-  return most;
+/// Puts a traverse's matches in where they are the surest so far; returns how many were.
+std::size_t take_surest(const std::vector<SureMatch>& found, const Traverse& traverse,
+                        const std::vector<std::size_t>& columns, int length,
+                        const RouteMatchingOptions& options, std::vector<Match>& matches) {
+  std::size_t taken = 0;
+  for (std::size_t q = 0; q < found.size(); ++q) {
+    const auto& [sequence, probability, sd_keyframes] = found[q];
+    Match& match = matches[q];
+    if (!sequence.reference) continue;
+    const auto score = static_cast<double>(sequence.score);
+    if (match.place &&
+        std::pair(match.probability.value_or(0), match.score) >= std::pair(probability.value_or(0), score)) {
+      continue;
+    }
+    const std::size_t keyframe = columns[*sequence.reference];
+    match.place = place_of(traverse, keyframe);
+    match.score = score;
+    match.probability = probability;
+    match.sd_keyframes = sd_keyframes;
+    const std::optional<double> spacing_m = local_spacing_m(traverse, keyframe);
+    match.sd_m = sd_keyframes && spacing_m ? std::optional(*sd_keyframes * *spacing_m) : std::nullopt;
+    match.partial = sequence.terms < length;
+    match.accepted = is_accepted(match, options);
+    ++taken;
+  }
+  return taken;
+}
+
+}  // namespace
+
+SearchOptions search_on_route(const Traverse& traverse, std::span<const double> time_s,
+                              const SampledWalk& sampled, const RouteMatchingOptions& options) {
+  SearchOptions search{.sequence = options.search,
+                       .graph = {},
+                       .path = {},
+                       .gaps = {.query = gaps_at(sampled.frames, time_s), .reference = {}}};
+  search.sequence.length = sequence_length_on(traverse, options);
+  search.path.steps = keyframe_steps(sampled, traverse);
+  return search;
 }
 
 RouteMatches match_on_route(const Route& route, std::span<const double> time_s, const SampledWalk& sampled,
@@ -194,25 +142,47 @@ RouteMatches match_on_route(const Route& route, std::span<const double> time_s, 
     result.matches.push_back(
         {.query_frame = static_cast<std::int64_t>(frame), .query_time_s = time_s[frame], .place = {}});
   }
-  for (std::size_t index = 0; index < route.traverses.size(); ++index) {
-    const Traverse& traverse = route.traverses[index];
-    const int length = sequence_length(traverse, options);
-    check_long_enough(traverse, length);
-    const std::vector<Candidate> candidates =
-        options.openseqslam
-            ? search_the_original_way(sampled, traverse, index, *options.openseqslam, length, callback)
-            : search_our_way(sampled, traverse, index, options, length, callback);
-    for (std::size_t q = 0; q < candidates.size(); ++q) {
-      Match& match = result.matches[q];
-      if (!candidates[q].keyframe || (match.place && match.score >= candidates[q].score)) continue;
-      match.place = place_of(traverse, *candidates[q].keyframe);
-      match.score = candidates[q].score;
-      match.partial = candidates[q].partial;
-      match.accepted = match.score >= options.accept_score;
-    }
-    result.sequence_length = length;
+  std::vector<int> lengths;
+  for (const Traverse& traverse : route.traverses) {
+    lengths.push_back(sequence_length_on(traverse, options));
+    check_long_enough(traverse, lengths.back());
   }
-  if (!options.openseqslam) {
+  result.sequence_length = lengths.back();
+  if (options.openseqslam) {
+    for (std::size_t i = 0; i < route.traverses.size(); ++i) {
+      const Traverse& traverse = route.traverses[i];
+      const auto found =
+          search_the_original_way(sampled, traverse, i, *options.openseqslam, lengths[i], callback);
+      take_surest(found, traverse, counted(traverse.keyframes.size()), lengths[i], options, result.matches);
+    }
+    return result;
+  }
+
+  const SearchMethod& method = search_method(options.method);
+  std::vector<TraverseCosts> costs;
+  for (std::size_t i = 0; i < route.traverses.size(); ++i)
+    costs.push_back(costs_against(sampled, route.traverses[i], i, options, lengths[i], callback));
+  if (options.fuse_traverses && costs.size() > 1) {
+    std::vector<CostMatrix> joined = joined_traverses(route, costs, options, result.warnings);
+    for (std::size_t i = 0; i < costs.size(); ++i) costs[i].enhanced = std::move(joined[i]);
+  }
+  std::size_t most_taken = 0;
+  for (std::size_t i = 0; i < route.traverses.size(); ++i) {
+    SearchOptions search = search_on_route(route.traverses[i], time_s, sampled, options);
+    // Between the stretches of a shortlist the traverse goes on elsewhere.
+    const std::vector<std::size_t>& columns = costs[i].columns;
+    for (std::size_t k = 1; k < columns.size(); ++k)
+      if (columns[k] != columns[k - 1] + 1) search.gaps.reference.push_back(k);
+    const SureMatches found = search_surely(costs[i].enhanced, method, search);
+    const std::size_t taken =
+        take_surest(found.matches, route.traverses[i], columns, lengths[i], options, result.matches);
+    if (taken < most_taken) continue;
+    most_taken = taken;
+    result.probability_source = found.source;
+    result.wrong_share = found.wrong_share;
+    result.looked_at = found.looked_at;
+  }
+  if (method.name == "lines") {
     SequenceSearchOptions search = options.search;
     search.length = result.sequence_length;
     result.lines = static_cast<int>(search_lines(search).size());

@@ -1,6 +1,9 @@
 #include "place/match/walk_gaps.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include <vo/base/clock.hpp>
 
 namespace place {
 
@@ -16,6 +19,19 @@ std::vector<Stretch> stretches_between(const std::vector<std::size_t>& gaps, std
   }
   if (begin < count) stretches.push_back({begin, count});
   return stretches;
+}
+
+std::vector<std::size_t> gaps_at(std::span<const std::size_t> frames, std::span<const double> time_s) {
+  if (!frames.empty() && frames.back() >= time_s.size())
+    throw std::invalid_argument("gaps_at: keyframes among the frames expected");
+  std::vector<std::size_t> gaps;
+  for (const vo::ClockGap& gap : vo::clock_gaps(time_s)) {
+    if (!vo::parts_walk(gap)) continue;
+    const auto after = static_cast<std::size_t>(std::ranges::lower_bound(frames, gap.frame) - frames.begin());
+    // Two jumps between the same keyframes are one gap.
+    if (after > 0 && after < frames.size() && (gaps.empty() || gaps.back() < after)) gaps.push_back(after);
+  }
+  return gaps;
 }
 
 }  // namespace place

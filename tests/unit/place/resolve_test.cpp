@@ -36,7 +36,9 @@ TEST(Resolve, FillsInEveryDefault) {
   EXPECT_FALSE(resolved.every);    // has no effect
   EXPECT_FALSE(resolved.fov_deg);  // no steps are followed
   EXPECT_EQ(resolved.sequence_length, 10);
-  EXPECT_EQ(resolved.accept_score, 0.7);
+  EXPECT_EQ(resolved.search, "path");
+  EXPECT_EQ(resolved.accept_probability, 0.95);
+  EXPECT_FALSE(resolved.accept_score);  // only one of both is asked for
 }
 
 TEST(Resolve, AgainChangesNothing) {
@@ -231,8 +233,33 @@ TEST(Resolve, TheOriginalsScoreHasAThresholdOfItsOwn) {
   Settings settings;
   settings.compat = "openseqslam";
   EXPECT_EQ(place::resolve(settings, {}).accept_score, 0.1);
+  EXPECT_FALSE(place::resolve(settings, {}).accept_probability);  // it has none
   settings.accept_score = 0.7;
   EXPECT_EQ(place::resolve(settings, {}).accept_score, 0.7);
+}
+
+TEST(Resolve, AScoreToAcceptByTakesTheProbabilitysPlace) {
+  Settings settings;
+  settings.accept_score = 2;
+  EXPECT_FALSE(place::resolve(settings, {}).accept_probability);
+  settings.accept_probability = 0.9;
+  expect_refused(settings, {}, "accept-probability: has no effect: accept-score is given");
+}
+
+TEST(Resolve, WhatConcernsLinesIsRefusedOfOtherSearches) {
+  Settings settings;
+  settings.min_fraction = 0.8;
+  expect_refused(settings, {}, "min-fraction: has no effect: search is path");
+  settings.search = "cone";
+  EXPECT_EQ(place::resolve(settings, {}).min_fraction, 0.8);
+  Settings graph;
+  graph.search = "graph";
+  graph.search_range_rad = 0.2;
+  expect_refused(graph, {}, "search-range-rad: has no effect: search is graph");
+  Settings original;
+  original.compat = "openseqslam";
+  original.search = "path";
+  expect_refused(original, {}, "search: has no effect: compat is openseqslam");
 }
 
 TEST(Resolve, OdometryIsByStepsOrHybrid) {
@@ -307,6 +334,9 @@ TEST(StageOptions, DefaultsAreThoseOfTheStages) {
   EXPECT_EQ(resolved.matching.search.min_fraction, stages.matching.search.min_fraction);
   EXPECT_EQ(resolved.matching.search.uniqueness_window, stages.matching.search.uniqueness_window);
   EXPECT_EQ(resolved.matching.accept_score, stages.matching.accept_score);
+  EXPECT_EQ(resolved.matching.accept_probability, stages.matching.accept_probability);
+  EXPECT_EQ(resolved.matching.method, stages.matching.method);
+  EXPECT_EQ(resolved.matching.fuse_traverses, stages.matching.fuse_traverses);
   EXPECT_EQ(resolved.matching.candidate_use, stages.matching.candidate_use);
   EXPECT_FALSE(resolved.matching.openseqslam);
 }

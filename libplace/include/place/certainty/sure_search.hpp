@@ -19,7 +19,7 @@ struct SureMatch {
 
 /// Where the probabilities of a walk come from.
 enum class ProbabilitySource {
-  kDecoys,  ///< calibrated by the walk played backwards
+  kDecoys,  ///< calibrated by the walk played backwards, and no surer than the search's own
   kSearch,  ///< the search's own, of a walk too short for that
   kNone,    ///< the walk is too short, and the search has none of its own
 };
@@ -34,6 +34,11 @@ struct SureMatches {
 
 /// A search with its certainty: matches (`method`), their probabilities from what the walk played backwards
 /// scores (`decoy_scores`, `match_probabilities`), and their spread along the reference (`place_spread`).
+///
+/// A search whose scores are themselves log odds (`SearchMethod::scores_are_log_odds`) has the last word
+/// where it is less sure: a walk that was never on the route also looks more like it forwards than backwards,
+/// as things grow with every step, so that decoys alone take it for found; the search sees that being off the
+/// route explains it as well.
 ///
 /// A walk of fewer than kFewestScores matches, or whose reverse has as few, has no probabilities but those
 /// that the search's scores are themselves (`SearchMethod::scores_are_log_odds`). Cost: the search, twice.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "place/evaluation/calibration.hpp"
 #include "place/evaluation/evaluation.hpp"
 #include "place/evaluation/ground_truth.hpp"
 #include "place/match/match.hpp"
@@ -25,6 +26,9 @@ struct RunEvaluation {
   std::vector<ScoredQuery> queries;  ///< the same with scores
   Evaluation evaluation;
   OperatingPoint accepted;  ///< the run's own acceptance
+  /// Of the matches' probabilities: right is within tolerance of a true place, as counting has it. None
+  /// without probabilities.
+  std::optional<Calibration> calibration;
 };
 
 /// The truth of a query and a reference that were both surveyed: `read_truth` of both. Throws `vo::Error` as

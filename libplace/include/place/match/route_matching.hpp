@@ -1,10 +1,11 @@
 #pragma once
 
+#include "place/certainty/sure_search.hpp"
 #include "place/match/candidates.hpp"
 #include "place/match/contrast_enhancement.hpp"
 #include "place/match/match.hpp"
 #include "place/match/openseqslam.hpp"
-#include "place/match/streamed_search.hpp"
+#include "place/match/search_method.hpp"
 #include "place/route/route.hpp"
 #include "place/route/walk_sampling.hpp"
 
@@ -13,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <vo/image/patch_normalisation.hpp>
@@ -38,7 +40,11 @@ struct RouteMatchingOptions {
   SequenceSearchOptions search;
   /// Metres on a line, instead of `search.length`; needs surveyed distances.
   std::optional<double> sequence_length_m;
-  double accept_score = 0.7;  ///< least score of an accepted match, in deviations of the enhanced cost
+  std::string method = "path";  ///< of `search_methods`
+  /// Join what the traverses say of one place (`fuse_traverses`), else each is searched by itself.
+  bool fuse_traverses = true;
+  double accept_probability = 0.95;                 ///< least probability of an accepted match
+  std::optional<double> accept_score;               ///< least score instead
   std::optional<openseqslam::Options> openseqslam;  ///< run the original's search instead of ours
 };
 
@@ -57,7 +63,12 @@ using SearchCallback = std::function<void(const SearchPart&)>;
 struct RouteMatches {
   std::vector<Match> matches;  ///< one for each query keyframe, in order
   int sequence_length = 0;     ///< keyframes, as used
-  int lines = 0;               ///< distinct lines searched through each pair; 0 in OpenSeqSLAM's search
+  int lines = 0;               ///< distinct lines searched through each pair; 0 unless lines are searched
+  /// Where probabilities come from, the estimated share of wrong matches, and the share of cells looked at:
+  /// of the traverse that most matches are on.
+  ProbabilitySource probability_source = ProbabilitySource::kNone;
+  double wrong_share = 1, looked_at = 1;
+  std::vector<std::string> warnings;  ///< what a user should know of traverses that share no place
 };
 
 /// The whole cost matrix of a sampled walk and a traverse, as `match_on_route` would search it. Throws
@@ -69,11 +80,23 @@ CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& trav
 /// (`ContrastEnhancementOptions::prior_queries`).
 double prior_queries_of(const RouteMatchingOptions& options);
 
-/// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> sequence search,
-/// against each traverse by itself; of a route's traverses the one with the surest match counts. `time_s`: of
-/// the walk's frames. Throws `vo::Error` naming the traverse if it is shorter than the sequence, or has no
-/// distances where a length in metres asks for them, or no thumbnails for OpenSeqSLAM's search;
-/// `std::invalid_argument` for a route without traverses.
+/// What a search of a walk on a traverse goes by: sequences of the length asked for, the walk's own
+/// displacement between its keyframes (for `search_path`, in keyframes of the traverse), and where its clock
+/// jumped for so long that nobody knows how far it went (`vo::parts_walk`). `time_s`: of the walk's frames.
+/// Throws `vo::Error` for a length in metres on a traverse without distances.
+SearchOptions search_on_route(const Traverse& traverse, std::span<const double> time_s,
+                              const SampledWalk& sampled, const RouteMatchingOptions& options);
+
+/// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> fusion with what
+/// the other traverses say -> search with its certainty (`search_surely`), against each traverse; of a
+/// route's traverses the one with the surest match counts. A walk that is too short for probabilities is
+/// accepted by the score, 0.7 deviations of the enhanced cost.
+///
+/// Fusion asks where traverses lie on each other, and finds out as it finds the walk. Memory: 4 bytes for
+/// each pair of keyframes, twice, and of all traverses where they are joined. `time_s`: of the walk's frames.
+/// Throws `vo::Error` naming the traverse if it is shorter than the sequence, or has no distances where a
+/// length in metres asks for them, or no thumbnails for OpenSeqSLAM's search; `std::invalid_argument` for a
+/// route without traverses.
 RouteMatches match_on_route(const Route& route, std::span<const double> time_s, const SampledWalk& sampled,
                             const RouteMatchingOptions& options, const SearchCallback& callback = {});
 

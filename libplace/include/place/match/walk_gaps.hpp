@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace place {
@@ -25,5 +26,10 @@ struct Stretch {
 /// The stretches of a walk of `count` keyframes between its gaps, in order; none for an empty walk. Throws
 /// `std::invalid_argument` if `gaps` does not increase.
 std::vector<Stretch> stretches_between(const std::vector<std::size_t>& gaps, std::size_t count);
+
+/// The keyframes before which a walk's clock jumped for so long that nobody knows how far the walker went
+/// (`vo::parts_walk`). `frames`: the keyframes, increasing; `time_s`: of all frames, increasing. Throws
+/// `std::invalid_argument` for keyframes that are not among them. O(frames).
+std::vector<std::size_t> gaps_at(std::span<const std::size_t> frames, std::span<const double> time_s);
 
 }  // namespace place

@@ -1,5 +1,6 @@
 #include "support/drawn_costs.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -51,6 +52,20 @@ TEST(SearchSurely, IsSureOfAPlainWalkAndOfNoOther) {
       sure += static_cast<std::size_t>(match.probability.value_or(0) > 0.9);
     EXPECT_LE(sure, 10U) << method.name;
   }
+}
+
+TEST(SearchSurely, IsNoSurerThanASearchOfLogOdds) {
+  // A walk that looks a little like the route all along: more than played backwards, less than the path asks.
+  const auto costs = walked_costs(60, 80, 10, 1, 1.2F, 6);
+  const place::SearchMethod& method = search_method("path");
+  const auto sure = search_surely(costs, method, {});
+  std::vector<double> scores;
+  for (const SureMatch& match : sure.matches) scores.push_back(match.match.score);
+  const auto by_decoys = place::match_probabilities(scores, place::decoy_scores(costs, method, {}),
+                                                    {.decoy_quantile = method.decoy_quantile});
+  for (std::size_t q = 0; q < scores.size(); ++q)
+    EXPECT_DOUBLE_EQ(*sure.matches[q].probability,
+                     std::min(by_decoys.probability[q], 1 / (1 + std::exp(-scores[q]))));
 }
 
 TEST(SearchSurely, OfAShortWalkGivesWhatTheSearchHas) {

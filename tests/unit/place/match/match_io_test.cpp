@@ -20,6 +20,9 @@ std::vector<place::Match> example() {
   matches[0].place = {
       .traverse = "by day", .keyframe = 1, .frame = 20, .time_s = 0.8, .distance_m = 1.25, .pose = {}};
   matches[0].score = 1.0 / 3;
+  matches[0].probability = 0.97;
+  matches[0].sd_keyframes = 1.5;
+  matches[0].sd_m = 0.75;
   matches[0].accepted = true;
   matches[1].query_frame = 9;
   matches[1].query_time_s = 0.36;
@@ -48,10 +51,10 @@ place::Route route() {
 TEST(MatchesCsv, HasTheColumnsOfTheContract) {
   EXPECT_EQ(place::to_csv(example()),
             "query_frame,query_time_s,traverse,reference_frame,reference_time_s,reference_distance_m,score,"
-            "accepted\n"
-            "4,0.160000,by day,20,0.800000,1.25,0.333333333,1\n"
-            "9,0.360000,,,,,0,0\n"
-            "12,0.480000,by day,0,0.000000,,-0.5,0\n");
+            "accepted,probability,sd_keyframes,sd_m\n"
+            "4,0.160000,by day,20,0.800000,1.25,0.333333333,1,0.97,1.5,0.75\n"
+            "9,0.360000,,,,,0,0,,,\n"
+            "12,0.480000,by day,0,0.000000,,-0.5,0,,,\n");
 }
 
 TEST(MatchesCsv, ReadsBackTheSameText) {
@@ -73,6 +76,7 @@ TEST(MatchesCsv, RefusesWhatIsNotWhole) {
   refused("query_frame,reference_frame,score,accepted\n1.5,2,1,1\n", "query_frame is '1.5'");
   refused("query_frame,reference_frame,score,accepted\n1,-2,1,1\n", "reference_frame is '-2'");
   refused("query_frame,reference_frame,score,accepted\n1,2,1,yes\n", "accepted is 'yes'; expected 0 or 1");
+  refused("query_frame,reference_frame,score,accepted,probability\n1,2,1,1,1.5\n", "probability is '1.5'");
   refused("query_frame,score,accepted\n1,2,1\n", "has no column 'reference_frame'");
 }
 

@@ -62,6 +62,8 @@ class RouteMatchingTest : public testing::Test {
   RouteMatchingTest() {
     add_traverse(route_, "by day", steady_walk(wall_, 0.5));
     options_.search.search_range_rad = 0.3;
+    options_.method = "lines";
+    options_.accept_score = 0.7;
   }
   Wall wall_{kWallPx, 1};
   place::Route route_;
@@ -150,6 +152,7 @@ TEST_F(RouteMatchingTest, TakesTheSurestOfSeveralTraverses) {
   // A traverse of another wall knows nothing of this one; one along only the second half knows that.
   add_traverse(route_, "elsewhere", steady_walk(Wall(kWallPx, 99), 0.5));
   add_traverse(route_, "second half", steady_walk(wall_, 0.4, kWallPx / 2.0));
+  options_.fuse_traverses = false;
   const auto query = steady_walk(wall_, 0.7, 60, 540);
   const auto sampled = sample_query(query, route_);
   Matrices matrices(route_);
@@ -165,7 +168,10 @@ TEST_F(RouteMatchingTest, TakesTheSurestOfSeveralTraverses) {
     const place::Match* surest = nullptr;
     for (const auto& one : each) {
       const auto& match = one.matches[q];
-      if (match.place && (surest == nullptr || match.score > surest->score)) surest = &match;
+      const auto sureness = [](const place::Match& m) {
+        return std::pair(m.probability.value_or(0), m.score);
+      };
+      if (match.place && (surest == nullptr || sureness(match) > sureness(*surest))) surest = &match;
     }
     ASSERT_TRUE(surest != nullptr && found.matches[q].place);
     EXPECT_EQ(found.matches[q].place->traverse, surest->place->traverse);
@@ -173,6 +179,104 @@ TEST_F(RouteMatchingTest, TakesTheSurestOfSeveralTraverses) {
     EXPECT_EQ(found.matches[q].score, surest->score);
     EXPECT_EQ(found.matches[q].partial, surest->partial);
   }
+  EXPECT_EQ(share_found(found, query, 1.0 * spacing_px(route_.traverses[0])), 1);
+}
+
+TEST_F(RouteMatchingTest, AcceptsByProbability) {
+  options_.accept_score.reset();
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  for (const place::SearchMethod& method : place::search_methods()) {
+    options_.method = method.name;
+    const auto found =
+        place::match_on_route(route_, query.walk.time_s, sample_query(query, route_), options_);
+    EXPECT_EQ(found.probability_source, place::ProbabilitySource::kDecoys) << method.name;
+    EXPECT_EQ(found.lines > 0, method.name == "lines");
+    std::size_t accepted = 0;
+    for (const place::Match& match : found.matches) {
+      if (!match.place) continue;
+      ASSERT_TRUE(match.probability && match.sd_keyframes && match.sd_m) << method.name;
+      EXPECT_EQ(match.accepted, *match.probability >= 0.95) << method.name;
+      // Between its neighbours, where it has two.
+      const auto& keyframes = route_.traverses[0].keyframes;
+      const std::size_t before = match.place->keyframe - (match.place->keyframe > 0 ? 1 : 0);
+      const std::size_t after = std::min(keyframes.size() - 1, match.place->keyframe + 1);
+      EXPECT_NEAR(*match.sd_m,
+                  *match.sd_keyframes * (*keyframes[after].distance_m - *keyframes[before].distance_m) /
+                      static_cast<double>(after - before),
+                  1e-9);
+      accepted += match.accepted ? 1 : 0;
+    }
+    EXPECT_GE(accepted, found.matches.size() * 8 / 10) << method.name;
+  }
+}
+
+TEST_F(RouteMatchingTest, APathFindsTheWalkFromEndToEnd) {
+  options_.method = "path";
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  const auto found = place::match_on_route(route_, query.walk.time_s, sample_query(query, route_), options_);
+  EXPECT_EQ(share_found(found, query, 1.5 * spacing_px(route_.traverses[0])), 1);
+}
+
+TEST_F(RouteMatchingTest, ASearchGoesByTheWalksOwnSteps) {
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  const place::SampledWalk sampled = sample_query(query, route_);
+  const place::Traverse& traverse = route_.traverses[0];
+  const place::SearchOptions search = place::search_on_route(traverse, query.walk.time_s, sampled, options_);
+  EXPECT_EQ(search.sequence.length, 10);
+  EXPECT_THAT(search.gaps.query, testing::IsEmpty());
+  ASSERT_THAT(search.path.steps, SizeIs(sampled.frames.size()));
+  EXPECT_EQ(search.path.steps.front(), 0);  // it says nothing
+  // Together they are the way between the first and the last keyframe, in keyframes of the traverse.
+  double steps = 0, way = 0;
+  for (const double step : search.path.steps) steps += step;
+  for (std::size_t f = sampled.frames.front() + 1; f <= sampled.frames.back(); ++f)
+    way += sampled.displacement[f];
+  const double there = traverse.keyframes.back().displacement - traverse.keyframes.front().displacement;
+  EXPECT_NEAR(steps, way / there * static_cast<double>(traverse.keyframes.size() - 1), 1e-9);
+  // Both are sampled to one unit, and a keyframe is a frame: 0.7 px of some 5 px.
+  for (std::size_t q = 1; q < search.path.steps.size(); ++q) EXPECT_NEAR(search.path.steps[q], 1, 0.25) << q;
+}
+
+TEST_F(RouteMatchingTest, ASearchOfAWalkWithoutMotionHasNoSteps) {
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  place::SampledWalk sampled = sample_query(query, route_);
+  sampled.displacement.clear();
+  EXPECT_THAT(place::search_on_route(route_.traverses[0], query.walk.time_s, sampled, options_).path.steps,
+              testing::IsEmpty());
+}
+
+TEST_F(RouteMatchingTest, NoSequenceCrossesAJumpOfTheClock) {
+  auto query = steady_walk(wall_, 0.7, 60, 540);
+  const place::SampledWalk sampled = sample_query(query, route_);
+  const std::size_t after = sampled.frames[sampled.frames.size() / 2];
+  for (std::size_t f = after; f < query.walk.time_s.size(); ++f) query.walk.time_s[f] += 10;
+  EXPECT_THAT(place::search_on_route(route_.traverses[0], query.walk.time_s, sampled, options_).gaps.query,
+              testing::ElementsAre(sampled.frames.size() / 2));
+  // Lines on either side are cut as at the walk's ends.
+  const auto found = place::match_on_route(route_, query.walk.time_s, sampled, options_);
+  EXPECT_TRUE(found.matches[sampled.frames.size() / 2].partial);
+  EXPECT_FALSE(found.matches[sampled.frames.size() / 2 + 10].partial);
+}
+
+TEST_F(RouteMatchingTest, TraversesThatShareNoPlaceAreSearchedApart) {
+  add_traverse(route_, "elsewhere", steady_walk(Wall(kWallPx, 99), 0.5));
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  const auto sampled = sample_query(query, route_);
+  const auto joined = place::match_on_route(route_, query.walk.time_s, sampled, options_);
+  ASSERT_THAT(joined.warnings, SizeIs(1));
+  EXPECT_THAT(joined.warnings[0], testing::HasSubstr("'by day' and 'elsewhere' share no place"));
+  options_.fuse_traverses = false;
+  const auto apart = place::match_on_route(route_, query.walk.time_s, sampled, options_);
+  EXPECT_TRUE(apart.warnings.empty());
+  for (std::size_t q = 0; q < joined.matches.size(); ++q)
+    EXPECT_EQ(joined.matches[q].score, apart.matches[q].score);
+}
+
+TEST_F(RouteMatchingTest, TraversesOfOneRouteBearEachOtherOut) {
+  add_traverse(route_, "again", steady_walk(wall_, 0.4));
+  const auto query = steady_walk(wall_, 0.7, 60, 540);
+  const auto found = place::match_on_route(route_, query.walk.time_s, sample_query(query, route_), options_);
+  EXPECT_TRUE(found.warnings.empty());
   EXPECT_EQ(share_found(found, query, 1.0 * spacing_px(route_.traverses[0])), 1);
 }
 

@@ -31,4 +31,28 @@ TEST(StretchesBetween, RefusesGapsOutOfOrder) {
   EXPECT_THROW(stretches_between({4, 4}, 10), std::invalid_argument);
 }
 
+// A frame a second, and a jump of ten seconds before frame 4, of two before frame 8.
+const std::vector<double> kTimes{0, 1, 2, 3, 13, 14, 15, 16, 18, 19};
+
+TEST(GapsAt, AreBeforeTheFirstKeyframeAfterALongJump) {
+  EXPECT_THAT(place::gaps_at(std::vector<std::size_t>{0, 2, 4, 6, 8}, kTimes), ElementsAre(2));
+  EXPECT_THAT(place::gaps_at(std::vector<std::size_t>{0, 3, 7}, kTimes), ElementsAre(2));
+}
+
+TEST(GapsAt, ThatPartNoKeyframesAreNone) {
+  EXPECT_THAT(place::gaps_at(std::vector<std::size_t>{5, 7}, kTimes), IsEmpty());
+  EXPECT_THAT(place::gaps_at(std::vector<std::size_t>{0, 3}, kTimes), IsEmpty());
+  EXPECT_THAT(place::gaps_at({}, kTimes), IsEmpty());
+  EXPECT_THAT(place::gaps_at(std::vector<std::size_t>{0, 1, 2}, std::vector<double>{0, 1, 2}), IsEmpty());
+}
+
+TEST(GapsAt, TwoJumpsBetweenTheSameKeyframesAreOne) {
+  EXPECT_THAT(place::gaps_at(std::vector<std::size_t>{0, 3}, std::vector<double>{0, 10, 20, 21, 22, 23, 24}),
+              ElementsAre(1));
+}
+
+TEST(GapsAt, RefusesKeyframesOutsideTheWalk) {
+  EXPECT_THROW(place::gaps_at(std::vector<std::size_t>{0, 10}, kTimes), std::invalid_argument);
+}
+
 }  // namespace

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "place/match/cost_matrix.hpp"
+#include "place/match/route_matching.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+/// A walk's costs against a traverse of a route, by what keyframes were described by.
+namespace place {
+
+/// 0, 1, ... count - 1
+std::vector<std::size_t> counted(std::size_t count);
+
+/// Keyframes of a sequence on a traverse. Throws `vo::Error` if metres are asked for and it has none.
+int sequence_length_on(const Traverse& traverse, const RouteMatchingOptions& options);
+
+/// Two walks as they are compared: all of a traverse, or a shortlist.
+struct ComparedWalks {
+  std::unique_ptr<CostSource> costs;          ///< of one descriptor, or the sum of what several say
+  std::vector<std::size_t> columns;           ///< the traverse's keyframes that are compared with
+  std::vector<Descriptors> query, reference;  ///< kept for `costs`
+};
+ComparedWalks compared_walks(const SampledWalk& sampled, const Traverse& traverse,
+                             const RouteMatchingOptions& options, int length);
+
+/// The walk's enhanced costs against the part of a traverse that it is compared with.
+struct TraverseCosts {
+  std::vector<std::size_t> columns;  ///< the keyframe of each reference
+  CostMatrix enhanced;
+};
+
+/// `index`: of the traverse, for the callback. Costs that are not to be enhanced are standardised as a whole
+/// once the callback has seen them: what is likely or not is told in deviations.
+TraverseCosts costs_against(const SampledWalk& sampled, const Traverse& traverse, std::size_t index,
+                            const RouteMatchingOptions& options, int length, const SearchCallback& callback);
+
+}  // namespace place
