@@ -23,6 +23,14 @@ ordered_json settings_json(const place::Settings& settings) {
   return json;
 }
 
+/// Bytes of the descriptors of one keyframe.
+std::size_t descriptor_bytes(const place::Traverse& traverse) {
+  std::size_t bytes = 0;
+  for (const place::Descriptors& descriptors : traverse.descriptors)
+    bytes += place::bytes_of_each(descriptors);
+  return bytes;
+}
+
 std::string settings_text(const place::Settings& settings) {
   std::string text;
   for (const place::Setting& setting : place::settings_table()) {
@@ -65,6 +73,7 @@ ordered_json as_json(const std::string& path, const place::Route& route) {
                                  {"pose_source", traverse.pose_source},
                                  {"surveyed", traverse.surveyed},
                                  {"keyframes", traverse.keyframes.size()},
+                                 {"descriptor_bytes", descriptor_bytes(traverse)},
                                  {"poses", poses},
                                  {"previews", previews},
                                  {"settings", settings_json(traverse.settings)},
@@ -84,6 +93,9 @@ void print(const std::string& path, const place::Route& route) {
     fmt::print("\ntraverse '{}' from {}\n", traverse.name, traverse.source);
     fmt::print("  {} frames of {}x{} px, {:.2f} s; {} keyframes\n", traverse.frames, traverse.frame_width_px,
                traverse.frame_height_px, traverse.duration_s, traverse.keyframes.size());
+    if (traverse.settings.descriptor)
+      fmt::print("  described by {}, {} bytes a keyframe\n", *traverse.settings.descriptor,
+                 descriptor_bytes(traverse));
     const auto surveyed =
         std::ranges::count_if(traverse.keyframes, [](const auto& k) { return k.pose.has_value(); });
     if (surveyed > 0) {

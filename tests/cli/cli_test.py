@@ -394,8 +394,10 @@ class CliTest(unittest.TestCase):
 
     def test_inspect_shows_text_and_json(self):
         text = check("inspect", self.walks.route)
-        for part in ("traverse 'reference'", "600 frames of 96x48 px", "poses from reference.csv", "motion=sad"):
+        for part in ("traverse 'reference'", "600 frames of 96x48 px", "poses from reference.csv", "motion=sad",
+                     "described by blocks, 1024 bytes a keyframe"):
             self.assertIn(part, text)
+        self.assertEqual(json.loads(check("inspect", self.walks.route, "--json"))["traverses"][0]["descriptor_bytes"], 1024)
 
     # ---- videos ----
 

@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kBlockAxes = 64;
 constexpr std::size_t kVocabularies = 4;
 constexpr std::size_t kWords = 16;
-constexpr int kRows = 2, kColumns = 8;
+constexpr int kRows = 3, kColumns = 8;
 constexpr int kChannels = 128;
 constexpr int kMaxShift = 2;
 constexpr double kPriorQueries = 30;
@@ -35,6 +35,7 @@ constexpr double kEvening = 0.2;
 // A sample of so many is as good as more of them.
 constexpr std::size_t kSampledKeyframes = 200;
 constexpr std::size_t kSampledBlocks = 20'000;
+constexpr std::size_t kColumnKeyframes = 100;  // whose columns the column axes are learned from
 
 const CellGrid kGrid{};
 
@@ -166,8 +167,11 @@ BlocksModel learn_blocks(std::span<const Bytes> records) {
   for (std::uint32_t seed = 1; seed <= kVocabularies; ++seed)
     model.vocabularies.push_back(learn_words(projected, kWords, seed));
 
-  vo::parallel_for(chosen.size(), [&](std::size_t i) {
-    parts[i] = columns_of(project(blocks_of(records[chosen[i]]), model.block_axes), model.vocabularies);
+  const std::vector<std::size_t> fewer =
+      evenly_spaced(std::min(kColumnKeyframes, records.size()), records.size());
+  parts.resize(fewer.size());
+  vo::parallel_for(fewer.size(), [&](std::size_t i) {
+    parts[i] = columns_of(project(blocks_of(records[fewer[i]]), model.block_axes), model.vocabularies);
   });
   const FloatRows columns = joined(parts);
   model.column_axes = principal_axes(columns, kChannels);

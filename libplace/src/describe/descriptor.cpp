@@ -73,6 +73,12 @@ std::size_t count_of(const Descriptors& descriptors) {
   return std::visit([](const auto& rows) { return rows.size(); }, descriptors);
 }
 
+std::size_t bytes_of_each(const Descriptors& descriptors) {
+  if (const auto* images = std::get_if<vo::ImageStack>(&descriptors)) return images->image_size();
+  if (const auto* stack = std::get_if<ColumnStack>(&descriptors)) return stack->descriptor_size();
+  return std::get<FloatRows>(descriptors).width * sizeof(float);
+}
+
 std::vector<std::string> descriptor_names() {
   std::vector<std::string> names;
   for (const Entry& entry : kDescriptors) names.emplace_back(entry.name);

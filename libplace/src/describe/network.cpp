@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -115,8 +116,11 @@ std::vector<float> pooled_output(cv::dnn::Net& net, const std::string& layer, co
             columns = out.dims > 3 ? out.size[3] : 1;
   if (out.dims > 4)
     throw vo::Error("layer", fmt::format("'{}' has {} dimensions", layer, out.dims), "at most 4");
-  return pool_grid({out.ptr<float>(), out.total()}, channels, rows, columns, options.pool_rows,
-                   options.pool_columns);
+  const std::span<const float> values(out.ptr<float>(), out.total());
+  if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+    throw vo::Error("layer", fmt::format("'{}' gives numbers that are not finite", layer),
+                    "finite ones; look at scale and mean");
+  return pool_grid(values, channels, rows, columns, options.pool_rows, options.pool_columns);
 }
 
 class Network final : public Descriptor {

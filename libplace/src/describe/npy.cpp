@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -66,6 +67,15 @@ void write(const std::filesystem::path& path, std::string header, const void* da
   vo::write_file(path, header);
 }
 
+void check_finite(const std::string& name, const FloatRows& rows) {
+  const auto at = std::ranges::find_if_not(rows.values, [](float value) { return std::isfinite(value); });
+  if (at == rows.values.end()) return;
+  const auto index = static_cast<std::size_t>(at - rows.values.begin());
+  throw vo::Error(name,
+                  fmt::format("holds {} in row {}, column {}", *at, index / rows.width, index % rows.width),
+                  "finite numbers");
+}
+
 }  // namespace
 
 FloatRows read_npy(const std::filesystem::path& path) {
@@ -106,6 +116,7 @@ FloatRows read_npy(const std::filesystem::path& path) {
     rows.values[i] = size == 2 ? static_cast<float>(cv::float16_t::fromBits(half))
                                : static_cast<float>(static_cast<unsigned char>(data[i]));
   }
+  check_finite(name, rows);
   return rows;
 }
 

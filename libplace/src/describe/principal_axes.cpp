@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -21,12 +24,6 @@ ConstRows matrix_of(const FloatRows& rows) {
   return {rows.values.data(), static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows.width)};
 }
 
-/// An orthonormal basis of what the columns span.
-Eigen::MatrixXf basis_of(const Eigen::MatrixXf& columns) {
-  const Eigen::HouseholderQR<Eigen::MatrixXf> qr(columns);
-  return qr.householderQ() * Eigen::MatrixXf::Identity(columns.rows(), columns.cols());
-}
-
 /// The products of blocks of rows, in parallel.
 void for_row_blocks(Eigen::Index rows, const std::function<void(Eigen::Index, Eigen::Index)>& body) {
   constexpr Eigen::Index kBlock = 256;
@@ -34,6 +31,56 @@ void for_row_blocks(Eigen::Index rows, const std::function<void(Eigen::Index, Ei
     const Eigen::Index first = static_cast<Eigen::Index>(block) * kBlock;
     body(first, std::min(kBlock, rows - first));
   });
+}
+
+/// Products of all columns of a matrix with each other, or of all rows, in parallel by tiles.
+Eigen::MatrixXf products_of_pairs(const Rows& matrix, bool by_columns) {
+  constexpr Eigen::Index kTile = 128;
+  const Eigen::Index size = by_columns ? matrix.cols() : matrix.rows();
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> tiles;  // of the lower triangle
+  for (Eigen::Index i = 0; i < size; i += kTile)
+    for (Eigen::Index j = 0; j <= i; j += kTile) tiles.emplace_back(i, j);
+  Eigen::MatrixXf products(size, size);
+  vo::parallel_for(tiles.size(), [&](std::size_t tile) {
+    const auto [i, j] = tiles[tile];
+    const Eigen::Index down = std::min(kTile, size - i), across = std::min(kTile, size - j);
+    if (by_columns) {
+      products.block(i, j, down, across).noalias() =
+          matrix.middleCols(i, down).transpose() * matrix.middleCols(j, across);
+    } else {
+      products.block(i, j, down, across).noalias() =
+          matrix.middleRows(i, down) * matrix.middleRows(j, across).transpose();
+    }
+  });
+  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
+  return products;
+}
+
+/// The eigenvectors of a symmetric matrix's largest eigenvalues, that of the largest first.
+struct Leading {
+  Eigen::MatrixXf vectors;
+  Eigen::VectorXf values;
+};
+
+Leading leading_vectors(const Eigen::MatrixXf& symmetric, Eigen::Index wanted) {
+  const Eigen::Index size = symmetric.rows();
+  // Some more than wanted: what makes few iterations enough (section 4.5 there).
+  const Eigen::Index tried = std::min(wanted + 16, size);
+  Eigen::MatrixXf basis = Eigen::MatrixXf::Identity(size, size);
+  if (tried < size) {
+    constexpr int kIterations = 4;
+    vo::Rng rng(1);
+    basis.resize(size, tried);
+    for (float& value : basis.reshaped()) value = static_cast<float>(rng.normal());
+    for (int i = 0; i < kIterations; ++i) {
+      const Eigen::HouseholderQR<Eigen::MatrixXf> qr(symmetric * basis);
+      basis = qr.householderQ() * Eigen::MatrixXf::Identity(size, tried);
+    }
+  }
+  const Eigen::MatrixXf within = basis.transpose() * (symmetric * basis);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(within);
+  const Eigen::MatrixXf vectors = basis * solver.eigenvectors().rightCols(wanted);
+  return {.vectors = vectors.rowwise().reverse(), .values = solver.eigenvalues().tail(wanted).reverse()};
 }
 
 }  // namespace
@@ -44,39 +91,25 @@ PrincipalAxes principal_axes(const FloatRows& vectors, std::size_t count) {
   const ConstRows all = matrix_of(vectors);
   const Eigen::RowVectorXf mean = all.colwise().mean();
   const Rows centred = all.rowwise() - mean;
-  const Eigen::Index width = all.cols(),
-                     wanted = std::min({static_cast<Eigen::Index>(count), width, all.rows()});
-  // Some more than wanted: what makes few iterations enough (section 4.5 there).
-  const Eigen::Index tried = std::min({wanted + 16, width, all.rows()});
-  constexpr int kIterations = 3;
-  vo::Rng rng(1);
-  Eigen::MatrixXf basis(width, tried);
-  for (float& value : basis.reshaped()) value = static_cast<float>(rng.normal());
-  Rows along(all.rows(), tried);
-  const auto project_on_basis = [&] {
-    for_row_blocks(all.rows(), [&](Eigen::Index first, Eigen::Index rows) {
-      along.middleRows(first, rows).noalias() = centred.middleRows(first, rows) * basis;
-    });
-  };
-  for (int i = 0; i < kIterations; ++i) {
-    basis = basis_of(basis);
-    project_on_basis();
-    for_row_blocks(width, [&](Eigen::Index first, Eigen::Index rows) {
-      basis.middleRows(first, rows).noalias() = centred.middleCols(first, rows).transpose() * along;
+  PrincipalAxes result{.mean = {mean.begin(), mean.end()}, .axes = {.width = vectors.width, .values = {}}};
+
+  // The products of all pairs of columns or of all pairs of rows, whichever are fewer: their leading vectors
+  // are the axes, or what the vectors sum up to them by.
+  const bool by_columns = all.cols() <= all.rows();
+  const auto wanted = std::min(static_cast<Eigen::Index>(count), std::min(all.cols(), all.rows()));
+  const Leading leading = leading_vectors(products_of_pairs(centred, by_columns), wanted);
+  Eigen::MatrixXf axes = leading.vectors;
+  if (!by_columns) {
+    axes.resize(all.cols(), wanted);
+    for_row_blocks(all.cols(), [&](Eigen::Index first, Eigen::Index rows) {
+      axes.middleRows(first, rows).noalias() = centred.middleCols(first, rows).transpose() * leading.vectors;
     });
   }
-  basis = basis_of(basis);
-  project_on_basis();
-  const Eigen::MatrixXf covariance = along.transpose() * along;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(covariance);
-
-  PrincipalAxes result{.mean = {mean.begin(), mean.end()}, .axes = {.width = vectors.width, .values = {}}};
-  const float largest = solver.eigenvalues().size() > 0 ? solver.eigenvalues().tail(1)(0) : 0;
+  const float largest = leading.values(0);
   constexpr float kRounding = 1e-6F;  // of the largest variance; below is rounding
   for (Eigen::Index i = 0; i < wanted; ++i) {
-    const Eigen::Index column = tried - 1 - i;
-    if (!(solver.eigenvalues()(column) > kRounding * largest)) break;
-    Eigen::VectorXf axis = (basis * solver.eigenvectors().col(column)).normalized();
+    if (!(leading.values(i) > kRounding * largest)) break;
+    Eigen::VectorXf axis = axes.col(i).normalized();
     Eigen::Index peak = 0;
     axis.cwiseAbs().maxCoeff(&peak);
     if (axis(peak) < 0) axis = -axis;

@@ -1,11 +1,42 @@
 #include "place/describe/words.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <Eigen/Core>
 #include <flann/flann.hpp>
 
 namespace place {
+namespace {
+
+constexpr std::size_t kOfEachWord = 150;  // vectors, that words are begun from
+constexpr int kRounds = 5;                // on all vectors; they hardly change any more
+
+/// Every n-th vector; all for n of 0 or 1.
+std::vector<float> every_nth(const FloatRows& vectors, std::size_t n) {
+  if (n <= 1) return vectors.values;
+  std::vector<float> chosen;
+  for (std::size_t i = 0; i < vectors.size(); i += n)
+    chosen.insert(chosen.end(), vectors[i].begin(), vectors[i].end());
+  return chosen;
+}
+
+/// Puts every word at the mean of the vectors that are nearest to it (Lloyd 1982); one that has none stays.
+void to_middles(const FloatRows& vectors, FloatRows& words) {
+  const std::vector<std::size_t> nearest = nearest_words(vectors, words);
+  std::vector<double> sums(words.values.size());
+  std::vector<std::size_t> members(words.size());
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    double* const sum = sums.data() + nearest[i] * words.width;
+    ++members[nearest[i]];
+    for (std::size_t k = 0; k < words.width; ++k) sum[k] += vectors[i][k];
+  }
+  for (std::size_t word = 0; word < words.size(); ++word)
+    for (std::size_t k = 0; k < words.width && members[word] > 0; ++k)
+      words[word][k] = static_cast<float>(sums[word * words.width + k] / static_cast<double>(members[word]));
+}
+
+}  // namespace
 
 FloatRows learn_words(const FloatRows& vectors, std::size_t count, std::uint32_t seed) {
   if (vectors.size() == 0 || count == 0)
@@ -17,14 +48,19 @@ FloatRows learn_words(const FloatRows& vectors, std::size_t count, std::uint32_t
     if (count > 1) words.values = std::move(points);
     return words;
   }
+  // FLANN's loops on a share of the vectors find where the clusters are; products of matrices on all of them
+  // find their middles.
+  points = every_nth(vectors, vectors.size() / std::max(count * kOfEachWord, std::size_t{1}));
+  const std::size_t some = points.size() / vectors.width;
   words = make_float_rows(vectors.width, count);
   flann::Matrix<float> centres(words.values.data(), count, vectors.width);
-  constexpr int kIterations = 20;  // the clusters of some ten thousand blocks hardly change any more
+  constexpr int kIterations = 20;
   flann::seed_random(seed);
   const flann::KMeansIndexParams params(static_cast<int>(count), kIterations, flann::FLANN_CENTERS_KMEANSPP);
   const int found = flann::hierarchicalClustering<flann::L2<float>>(
-      flann::Matrix<float>(points.data(), vectors.size(), vectors.width), centres, params);
+      flann::Matrix<float>(points.data(), some, vectors.width), centres, params);
   words.values.resize(static_cast<std::size_t>(found) * vectors.width);
+  for (int i = 0; i < kRounds; ++i) to_middles(vectors, words);
   return words;
 }
 

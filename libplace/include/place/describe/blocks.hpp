@@ -18,8 +18,8 @@ struct BlocksModel {
 };
 
 /// Learns from keyframes: `records` are cells of `gradient_cells`, packed. Blocks of a sample of them give
-/// the axes and words, their columns the column axes. Throws `std::invalid_argument` without records. Some
-/// seconds of one core for 250 keyframes, and no more for any number.
+/// the axes and words, their columns the column axes. Throws `std::invalid_argument` without records. About a
+/// second of one core for 200 keyframes, and no more for any number.
 BlocksModel learn_blocks(std::span<const Bytes> records);
 
 /// Descriptors of keyframes: dense blocks -> VLAD in 8 columns (Jegou et al. 2010), by each vocabulary ->

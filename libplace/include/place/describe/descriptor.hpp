@@ -35,6 +35,8 @@ struct KeyframeRecords {
 using Descriptors = std::variant<vo::ImageStack, ColumnStack, FloatRows>;
 
 std::size_t count_of(const Descriptors& descriptors);
+/// Bytes that the descriptor of one keyframe takes in a route.
+std::size_t bytes_of_each(const Descriptors& descriptors);
 
 /// Those at `indices`, in that order. Throws `std::out_of_range` for an index past the end.
 Descriptors select(const Descriptors& descriptors, std::span<const std::size_t> indices);

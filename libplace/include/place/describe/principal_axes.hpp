@@ -16,11 +16,11 @@ struct PrincipalAxes {
 
 /// Principal component analysis: the mean and the `count` axes of the largest variance.
 ///
-/// By subspace iteration (Halko, Martinsson and Tropp 2011, algorithm 4.4) from a fixed start, so the same
-/// vectors give the same axes and thousands of dimensions take seconds. Axes of variances that are nearly
-/// equal mix; what they span is that of the exact ones to some thousandths. The sign of an axis is such that
-/// its largest value is positive. Throws `std::invalid_argument` without vectors or for a count of 0. O(12 *
-/// vectors * width * count).
+/// From the products of all pairs of values or of all pairs of vectors, whichever are fewer, by subspace
+/// iteration (Halko, Martinsson and Tropp 2011, algorithm 4.4) from a fixed start, so the same vectors give
+/// the same axes. Axes of variances that are nearly equal mix; what they span is that of the exact ones to
+/// some thousandths. The sign of an axis is such that its largest value is positive. Throws
+/// `std::invalid_argument` without vectors or for a count of 0. O(vectors * width * min(vectors, width)).
 PrincipalAxes principal_axes(const FloatRows& vectors, std::size_t count);
 
 /// The vectors less `mean` (where it is not empty), along each axis; in parallel over the vectors.

@@ -9,11 +9,12 @@
 namespace place {
 
 /// A vocabulary of local descriptors: the centres of `count` clusters, by FLANN's hierarchical k-means in one
-/// level (k-means++ for the start). Fewer where there are fewer distinct vectors than that.
+/// level (k-means++ for the start) on a share of the vectors and, from there, a few rounds on all of them.
+/// Fewer where there are fewer distinct vectors than that.
 ///
 /// The same vectors and seed give the same words; the C library's random numbers (`std::rand`), which FLANN
 /// draws from, are begun anew by it. Throws `std::invalid_argument` without vectors or for a count of 0.
-/// O(20 * vectors * count * width).
+/// O(5 * vectors * count * width), as products of matrices.
 FloatRows learn_words(const FloatRows& vectors, std::size_t count, std::uint32_t seed);
 
 /// The index of the word nearest to each vector; of equals the first. O(vectors * words * width), as one

@@ -1,5 +1,6 @@
 #include "place/describe/descriptor.hpp"
 
+#include "place/describe/quantise.hpp"
 #include "support/described_views.hpp"
 
 #include <gmock/gmock.h>
@@ -42,6 +43,12 @@ TEST(Select, TakesDescriptorsOfAnyForm) {
   EXPECT_THAT(std::get<place::ColumnStack>(place::select(stack, indices)).values,
               testing::ElementsAre(5, 6, 1, 2));
   EXPECT_THROW(place::select(rows, std::vector<std::size_t>{3}), std::out_of_range);
+}
+
+TEST(Descriptors, HaveTheSizeOfTheirForm) {
+  EXPECT_EQ(place::bytes_of_each(vo::make_image_stack(4, 2, 3)), 8U);
+  EXPECT_EQ(place::bytes_of_each(place::make_column_stack(8, 128, 3)), 1024U);
+  EXPECT_EQ(place::bytes_of_each(place::make_float_rows(5, 0)), 20U);  // 4 bytes a value
 }
 
 }  // namespace

@@ -73,6 +73,9 @@ TEST_F(Npy, SaysWhatIsWrong) {
   refused(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (1, 1), }", std::string(4, '\0')), "Fortran");
   refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (4,), }", std::string(16, '\0')),
           "two dimensions");
+  const std::string infinite("\0\0\x80\x3f\0\0\x80\x7f", 8);  // 1 and infinity, as float32
+  refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }", infinite),
+          "inf in row 0, column 1");
   refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }", std::string(15, '\0')),
           "15 bytes");
   refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 0), }", ""), "0 bytes");
