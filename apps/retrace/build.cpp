@@ -60,17 +60,9 @@ std::optional<place::Survey> survey_of(const BuildOptions& options, const vo::Wa
     return place::survey_from_trajectory(options.trajectory, walk, form);
   }
   if (options.track.empty()) return {};
-  // A track's poses are metres about the route's origin; other coordinates on the route would not fit them.
-  for (const place::Traverse& traverse : route.traverses) {
-    if (!route.origin && traverse.surveyed && !traverse.pose_source.empty()) {
-      throw vo::Error(options.output,
-                      fmt::format("has poses of {} that are not geographic", traverse.pose_source),
-                      "--truth or --trajectory in the same coordinates, or another route");
-    }
-  }
   form.start_s = options.track_start_s;
   form.track_name = options.track_name;
-  return place::survey_from_track(options.track, walk, route.origin, form);
+  return place::survey_from_track(options.track, walk, route, form);
 }
 
 /// The settings without those that, as motion is no file's, the survey alone has a use for.

@@ -167,6 +167,19 @@ Survey survey_from_track(const std::filesystem::path& path, const vo::Walk& walk
   return survey_of(std::move(timed_path), walk, options);
 }
 
+Survey survey_from_track(const std::filesystem::path& path, const vo::Walk& walk, Route& route,
+                         const SurveyOptions& options) {
+  for (const Traverse& traverse : route.traverses) {
+    if (!route.origin && traverse.surveyed && !traverse.pose_source.empty()) {
+      throw vo::Error(
+          path.string(),
+          fmt::format("is geographic, and the route has poses of {} that are not", traverse.pose_source),
+          "a truth or trajectory in the same coordinates, or another route");
+    }
+  }
+  return survey_from_track(path, walk, route.origin, options);
+}
+
 std::optional<Survey> survey_from_odometry(const vo::Trajectory& odometry) {
   if (odometry.empty()) return std::nullopt;
   Survey survey{.source = "odometry", .surveyed = false, .pose = {}, .distance_m = {}};

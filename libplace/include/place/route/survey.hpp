@@ -42,6 +42,11 @@ Survey survey_from_trajectory(const std::filesystem::path& path, const vo::Walk&
 Survey survey_from_track(const std::filesystem::path& path, const vo::Walk& walk,
                          std::optional<GeographicOrigin>& origin, const SurveyOptions& options = {});
 
+/// The same for a traverse of `route`, whose origin it takes or gives. Throws `vo::Error` if the route has
+/// surveyed poses that are not geographic: metres about an origin would not fit them.
+Survey survey_from_track(const std::filesystem::path& path, const vo::Walk& walk, Route& route,
+                         const SurveyOptions& options = {});
+
 /// For a walk that nobody surveyed: the poses of its odometry, one for each frame, without distances. None if
 /// there is no odometry.
 std::optional<Survey> survey_from_odometry(const vo::Trajectory& odometry);

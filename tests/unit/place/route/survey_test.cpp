@@ -198,6 +198,21 @@ TEST(Survey, ATrackGivesTheRouteItsOrigin) {
   EXPECT_GT(second.pose[0]->y_m, 111000);
 }
 
+TEST(Survey, ATrackDoesNotGoBesidePosesThatAreNotGeographic) {
+  const TemporaryFolder folder;
+  const auto track = folder.write("walk.csv", "time_s,lat_deg,lon_deg\n0,47,8\n2,47.00001,8\n");
+  place::Route route;
+  place::Traverse& traverse = route.traverses.emplace_back();
+  traverse.pose_source = "poses.tum";
+  EXPECT_THROW_WITH(static_cast<void>(place::survey_from_track(track, recording(3, 1), route)), vo::Error,
+                    "walk.csv: is geographic, and the route has poses of poses.tum that are not");
+  EXPECT_FALSE(route.origin);
+  traverse.surveyed = false;  // its own odometry's, which begins anywhere
+  static_cast<void>(place::survey_from_track(track, recording(3, 1), route));
+  ASSERT_TRUE(route.origin);
+  EXPECT_EQ(route.origin->latitude_deg, 47);
+}
+
 TEST(Survey, OdometryHasPosesWithoutDistances) {
   EXPECT_FALSE(place::survey_from_odometry({}));
   const auto survey = place::survey_from_odometry({{0, {1, 2, 0}}, {1, {1, 3, 0}}});
