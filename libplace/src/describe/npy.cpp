@@ -109,7 +109,7 @@ FloatRows read_npy(const std::filesystem::path& path) {
         kExpected);
 
   FloatRows rows = make_float_rows(shape.width, shape.rows);
-  if (size == 4) std::memcpy(rows.values.data(), data.data(), data.size());
+  if (size == 4) std::ranges::copy(data, reinterpret_cast<char*>(rows.values.data()));
   for (std::size_t i = 0; i < rows.values.size() && size < 4; ++i) {
     std::uint16_t half = 0;
     if (size == 2) std::memcpy(&half, data.data() + 2 * i, 2);
