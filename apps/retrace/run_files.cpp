@@ -93,6 +93,7 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
                     {"lines", run.lines},
                     {"sampling_unit", run.sampled.unit},
                     {"relative_scale", run.sampled.scale},
+                    {"relative_scale_gain", run.sampled.scale_gain},
                     {"warnings", warnings},
                     {"version", place::kVersion}};
   if (run.settings.accept_score) json["accept_score"] = *run.settings.accept_score;

@@ -22,13 +22,14 @@ double mean_best_cost(const CostMatrix& enhanced, double slope, int length) {
 
 }  // namespace
 
-double relative_scale(CostMatrix enhanced, const RelativeScaleOptions& options,
-                      const ContrastEnhancementOptions& enhancement) {
-  if (!(options.largest > 1) || options.steps < 3 || options.length < 2) {
-    throw std::invalid_argument("relative_scale: largest > 1, steps >= 3 and length >= 2 expected");
+RelativeScale relative_scale(CostMatrix enhanced, const RelativeScaleOptions& options,
+                             const ContrastEnhancementOptions& enhancement) {
+  if (!(options.largest > 1) || options.steps < 3 || options.length < 2 || !(options.min_gain >= 0)) {
+    throw std::invalid_argument(
+        "relative_scale: largest > 1, steps >= 3, length >= 2 and min_gain >= 0 expected");
   }
   if (2 * std::min(enhanced.queries, enhanced.references) < 3 * static_cast<std::size_t>(options.length))
-    return 1;
+    return {};
 
   enhance_contrast(enhanced, enhancement);
   const double step = 2 * std::log(options.largest) / (options.steps - 1);
@@ -49,7 +50,11 @@ double relative_scale(CostMatrix enhanced, const RelativeScaleOptions& options,
   const auto differs = [&](double c) { return c != *best; };
   const auto last = std::find_if(best, cost.end(), differs) - 1;
   const auto first = std::find_if(std::make_reverse_iterator(best), cost.rend(), differs).base();
-  return std::exp((log_scale(first - cost.begin()) + log_scale(last - cost.begin())) / 2);
+  RelativeScale found;
+  found.best = std::exp((log_scale(first - cost.begin()) + log_scale(last - cost.begin())) / 2);
+  found.gain = mean_best_cost(enhanced, 1, options.length) - *best;
+  if (found.gain >= options.min_gain) found.scale = found.best;
+  return found;
 }
 
 }  // namespace place

@@ -27,7 +27,10 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
 
 /// Where one walk is in metres and the other is not (steps were seen in one of them only), both are taken to
 /// have been walked at one mean speed; `relative_scale` mends what is left.
-void to_mean_speed(const Traverse& reference, double duration_s, std::vector<double>& displacement) {
+void to_mean_speed(const Traverse& reference, const vo::Walk& walk, std::vector<double>& displacement) {
+  double duration_s = walk.time_s.back();
+  for (const vo::ClockGap& gap : walk.gaps)
+    if (vo::parts_walk(gap)) duration_s -= gap.length_s;
   const double there = reference.keyframes.back().displacement / reference.duration_s;
   const double here = std::accumulate(displacement.begin(), displacement.end(), 0.0) / duration_s;
   if (!(there > 0 && here > 0)) return;
@@ -51,6 +54,14 @@ double unit_of(const vo::Walk& walk, const SampledWalk& sampled, const WalkSampl
 std::shared_ptr<const DescriptorSet> descriptors_of(const WalkSamplingOptions& options) {
   if (options.descriptors) return options.descriptors;
   return make_descriptors({.name = "thumbnail", .patch = options.motion.visual.patch});
+}
+
+/// The first frames after the gaps that part a walk.
+std::vector<std::size_t> begins_of(const vo::Walk& walk) {
+  std::vector<std::size_t> begins;
+  for (const vo::ClockGap& gap : walk.gaps)
+    if (vo::parts_walk(gap)) begins.push_back(gap.frame);
+  return begins;
 }
 
 /// What was kept of the keyframes for each descriptor.
@@ -81,8 +92,8 @@ void take_keyframes(const vo::Walk& walk, std::vector<std::size_t> frames, const
 }
 
 /// The scale by which keyframes fit those of a traverse, told by the first descriptor.
-double scale_to(const Traverse& reference, const SampledWalk& sampled, const Descriptor& descriptor,
-                const RelativeScaleOptions& scale, std::optional<int> max_shift_px) {
+RelativeScale scale_to(const Traverse& reference, const SampledWalk& sampled, const Descriptor& descriptor,
+                       const RelativeScaleOptions& scale, std::optional<int> max_shift_px) {
   const Descriptors query = descriptor.comparable(sampled.descriptors.front());
   Descriptors compared = descriptor.comparable(reference.descriptors.front());
   constexpr std::size_t kLargest = 50'000;  // keyframes; of more, only the likely ones are compared
@@ -111,25 +122,32 @@ SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options
                     "no spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;
+  sampled.warnings = motion.warnings;
   if (motion.metric) sampled.trajectory = std::move(motion.trajectory);
   if (motion.visual) {
     sampled.motion_model = std::move(motion.visual->model);
-    sampled.warnings = motion_warnings(walk, sampled.motion_model);
+    for (std::string& warning : motion_warnings(walk, sampled.motion_model))
+      sampled.warnings.push_back(std::move(warning));
   }
   const Traverse* reference = on != nullptr ? &on->traverses.front() : nullptr;
   if (reference != nullptr && motion.metric != route->metric)
-    to_mean_speed(*reference, walk.time_s.back(), sampled.displacement);
+    to_mean_speed(*reference, walk, sampled.displacement);
   sampled.unit = unit_of(walk, sampled, options, route);
   if (!(sampled.unit > 0))
     throw vo::Error(walk.source, "shows no motion", "a walk along which the scene changes");
-  take_keyframes(walk, resample(sampled.displacement, sampled.unit), *descriptors, on, sampled);
+  take_keyframes(walk, resample(sampled.displacement, sampled.unit, begins_of(walk)), *descriptors, on,
+                 sampled);
   if (reference == nullptr || !options.tie_scale) return sampled;
 
-  sampled.scale = scale_to(*reference, sampled, *descriptors->front(),
-                           motion.metric && route->metric ? options.metric_scale : options.relative_scale,
-                           options.max_shift_px);
+  const RelativeScale tie = scale_to(
+      *reference, sampled, *descriptors->front(),
+      motion.metric && route->metric ? options.metric_scale : options.relative_scale, options.max_shift_px);
+  sampled.scale_gain = tie.gain;
+  if (tie.scale == 1) return sampled;
+  sampled.scale = tie.scale;
   for (double& step : sampled.displacement) step *= sampled.scale;
-  take_keyframes(walk, resample(sampled.displacement, sampled.unit), *descriptors, on, sampled);
+  take_keyframes(walk, resample(sampled.displacement, sampled.unit, begins_of(walk)), *descriptors, on,
+                 sampled);
   return sampled;
 }
 

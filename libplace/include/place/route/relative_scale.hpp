@@ -14,6 +14,16 @@ struct RelativeScaleOptions {
   /// Deviations of cost a scale must gain for every squared unit of its logarithm: where the matrix hardly
   /// tells, the walks are taken to be of like speed.
   double prior_weight = 0.1;
+  /// Deviations of cost by which lines of the best scale must be cheaper than those of 1, in the mean of all
+  /// queries. Where they gain less, the matrix shows no speed, and a wrong scale does more harm than none.
+  double min_gain = 0.1;
+};
+
+/// A scale, and how sure it is.
+struct RelativeScale {
+  double scale = 1;  ///< the best, where it gains enough; else 1
+  double best = 1;   ///< the best
+  double gain = 0;   ///< deviations of cost that lines of the best scale gain on those of 1
 };
 
 /// How far one query keyframe step reaches, in reference keyframe steps, found by matching alone.
@@ -23,10 +33,11 @@ struct RelativeScaleOptions {
 /// through the cost matrix is straight but not at 45 degrees. Lines of a single slope are searched through
 /// the whole standardised matrix; the right slope is the one whose best lines are cheapest on average.
 ///
-/// `costs`: of all query keyframes with all, or the likely (`candidates`), of the reference's. Returns 1 if
-/// either has fewer than 3 / 2 * length keyframes: too few to tell. Throws `std::invalid_argument` for
+/// `costs`: of all query keyframes with all, or the likely (`candidates`), of the reference's. The scale is 1
+/// if either has fewer than 3 / 2 * length keyframes, too few to tell, or if the best one gains less than
+/// `min_gain`. Throws `std::invalid_argument` for
 /// options that are not valid. O(queries * references * steps * length), in parallel over queries.
-double relative_scale(CostMatrix costs, const RelativeScaleOptions& options = {},
-                      const ContrastEnhancementOptions& enhancement = {});
+RelativeScale relative_scale(CostMatrix costs, const RelativeScaleOptions& options = {},
+                             const ContrastEnhancementOptions& enhancement = {});
 
 }  // namespace place

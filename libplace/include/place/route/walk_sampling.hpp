@@ -45,6 +45,7 @@ struct SampledWalk {
   bool metric = false;           ///< the displacement came in metres
   vo::Trajectory trajectory;  ///< by that motion, at every frame; empty unless metres and headings are known
   double scale = 1;           ///< the displacement was multiplied by this to fit the route's
+  double scale_gain = 0;      ///< how sure the best scale is, used or not (`RelativeScale::gain`)
   double unit = 0;            ///< displacement between keyframes (SSS Eq. 4); 0 without motion
   std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
 };
@@ -52,8 +53,10 @@ struct SampledWalk {
 /// Samples a walk (SSS 3.3) and describes its keyframes. With motion, keyframes are a unit of displacement
 /// apart: `spacing_m` where the motion is metric, else by Eq. 4 with `n`. A walk on a route takes the unit
 /// that the route's first traverse gave it, in the proportion in which its own `n` or `spacing_m` differs
-/// from the route's, and its scale is tied to that traverse. `route`: null, or without traverses, for a first
-/// walk, which the descriptors learn from.
+/// from the route's, and its scale is tied to that traverse, where the matches show it clearly
+/// (`RelativeScale`). After a gap too long to be filled (`vo::parts_walk`), of which nobody knows how far it
+/// led, sampling begins anew. `route`: null, or without traverses, for a first walk, which the descriptors
+/// learn from.
 ///
 /// Throws `vo::Error` naming the walk if it shows no motion to learn from, or no metres though only
 /// `spacing_m` says how dense keyframes are; `std::invalid_argument` if neither does, or if the walk was read

@@ -40,7 +40,7 @@ vo::ImageStack walk(double start, double step, std::size_t count) {
 
 double relative_scale(const vo::ImageStack& query, const vo::ImageStack& reference,
                       const place::RelativeScaleOptions& options = {}) {
-  return place::relative_scale(place::cost_matrix(query, reference), options);
+  return place::relative_scale(place::cost_matrix(query, reference), options).scale;
 }
 
 /// Lines of 10 terms reach 5 keyframes from their pair. Slopes whose ends differ by less than half a
@@ -87,6 +87,29 @@ TEST(RelativeScale, OfPicturesAllAlikeIsOne) {
   EXPECT_NEAR(relative_scale(grey, grey), 1, 1e-12);
 }
 
+TEST(RelativeScale, IsUsedOnlyWhereItIsSure) {
+  // A walk at twice the spacing, of which the pictures show more and more of something else.
+  const auto reference = walk(0, 1, 200);
+  const vo::ImageStack others = random_images(8, 8, 60, 7);
+  double last_gain = 1e9;
+  for (const double noise : {0.0, 0.5, 1.0}) {
+    vo::ImageStack query = walk(10, 2, 60);
+    for (std::size_t k = 0; k < query.pixels.size(); ++k)
+      query.pixels[k] =
+          static_cast<std::uint8_t>(std::lround(std::lerp(query.pixels[k], others.pixels[k], noise)));
+    const auto found = place::relative_scale(place::cost_matrix(query, reference));
+    EXPECT_LE(found.gain, last_gain) << noise;
+    last_gain = found.gain;
+    EXPECT_EQ(found.scale, noise < 1 ? found.best : 1) << noise;
+    if (noise < 1) {
+      EXPECT_NEAR(found.best, 2, 2 * kAccuracy) << noise;
+    }
+    // What is asked for beyond what it gains is not there.
+    EXPECT_EQ(place::relative_scale(place::cost_matrix(query, reference), {.min_gain = found.gain + 1}).scale,
+              1);
+  }
+}
+
 TEST(RelativeScale, OfAlmostNothingIsOne) {
   const auto reference = walk(0, 1, 20);
   EXPECT_EQ(relative_scale(walk(0, 1, 1), reference), 1);
@@ -103,6 +126,7 @@ TEST(RelativeScale, RefusesOptionsOutOfRange) {
   EXPECT_THROW(relative_scale(reference, reference, {.largest = 1}), std::invalid_argument);
   EXPECT_THROW(relative_scale(reference, reference, {.steps = 2}), std::invalid_argument);
   EXPECT_THROW(relative_scale(reference, reference, {.length = 1}), std::invalid_argument);
+  EXPECT_THROW(relative_scale(reference, reference, {.min_gain = -1}), std::invalid_argument);
 }
 
 TEST(RelativeScale, IsTheSameForAnyThreadCount) {

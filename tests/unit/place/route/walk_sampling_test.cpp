@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <place/route/walk_sampling.hpp>
+#include <vo/base/clock.hpp>
 #include <vo/base/error.hpp>
 
 namespace {
@@ -104,6 +105,26 @@ TEST_F(WalkSamplingTest, TiesTheScaleToTheFirstTraverse) {
   EXPECT_EQ(loose.scale, 1);
   EXPECT_LT(loose.frames.size(), tied.frames.size());
   EXPECT_EQ(loose.unit, route_.unit);
+}
+
+TEST_F(WalkSamplingTest, BeginsAnewAfterALongJumpOfTheClock) {
+  const auto known = steady_walk(wall_, 0.5);
+  const auto plain = sample_query(known, route_);
+  // A frame that is no keyframe, half way between two.
+  const std::size_t k = plain.frames.size() / 2;
+  const std::size_t jump = (plain.frames[k] + plain.frames[k + 1]) / 2;
+  ASSERT_GT(plain.frames[k + 1] - plain.frames[k], 2U);
+  const auto after = [&](double jump_s) {
+    auto jumped = known;
+    for (std::size_t i = jump; i < jumped.walk.frames(); ++i) jumped.walk.time_s[i] += jump_s;
+    jumped.walk.gaps = vo::clock_gaps(jumped.walk.time_s);
+    return jumped;
+  };
+  const auto paused = sample_query(after(600), route_);
+  EXPECT_TRUE(std::ranges::binary_search(paused.frames, jump));
+  EXPECT_EQ(paused.displacement[jump], 0);
+  const auto filled = sample_query(after(2), route_);  // the pace goes on
+  EXPECT_GT(filled.displacement[jump], 0);
 }
 
 TEST_F(WalkSamplingTest, TheUnitOfAQueryIsInProportionToItsN) {
