@@ -1,11 +1,12 @@
 #include "kernels/kernels.hpp"
 
 #include "kernels/table.hpp"
+#include "lanes/plain.hpp"
 
 namespace vo::kernels {
 
 const Kernels& scalar_kernels() {
-  return kTable<ScalarLanes>;
+  return kTable<lanes::Plain<kLanes>>;
 }
 
 const Kernels& kernels() {

@@ -5,11 +5,12 @@
 #if defined(__x86_64__)
 
 #include "kernels/table.hpp"
+#include "lanes/avx2.hpp"
 
 namespace vo::kernels {
 
 const Kernels& avx2_kernels() {
-  return kTable<Avx2Lanes>;
+  return kTable<lanes::Avx2>;
 }
 
 }  // namespace vo::kernels

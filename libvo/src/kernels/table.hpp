@@ -3,7 +3,6 @@
 #include "kernels/descriptor.hpp"
 #include "kernels/distance.hpp"
 #include "kernels/hessian.hpp"
-#include "kernels/lanes.hpp"
 #include "kernels/orientation.hpp"
 
 namespace vo::kernels {

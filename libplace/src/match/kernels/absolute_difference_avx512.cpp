@@ -2,28 +2,17 @@
 
 #if defined(__x86_64__)
 
-#include <immintrin.h>
+#include "lanes/avx512.hpp"
 
 namespace place::kernels {
 namespace {
 
-struct Avx512 {
-  using Bytes = __m512i;
-  using Sums = __m512i;  // eight of 64 bits
-  static constexpr std::size_t kBytes = 64;
+struct Tiles : vo::lanes::Avx512 {
   static constexpr std::size_t kTileQueries = 6, kTileReferences = 4;  // 30 of 32 registers
 
-  static Bytes load(const std::uint8_t* from) { return _mm512_loadu_si512(from); }
-  static Bytes load_last(const std::uint8_t* end, std::size_t count) {
-    return _mm512_maskz_loadu_epi8((__mmask64{1} << count) - 1, end - count);
-  }
-  static void keep_in_register(Bytes& bytes) { asm("" : "+v"(bytes)); }
-  static Sums zero() { return _mm512_setzero_si512(); }
-  static Sums add(Sums sums, Bytes a, Bytes b) { return _mm512_add_epi64(sums, _mm512_sad_epu8(a, b)); }
-  static std::int32_t total(Sums sums) { return static_cast<std::int32_t>(_mm512_reduce_add_epi64(sums)); }
-
+  /// The totals of a whole tile are added up together, a row of references at a time.
   template <std::size_t kQueries, std::size_t kReferences>
-  static void store(const Sums (&sums)[kQueries][kReferences], const ScaledSums& to) {
+  static void store_tile(const Sums (&sums)[kQueries][kReferences], const ScaledSums& to) {
     if constexpr (kQueries == 6 && kReferences == 4) {
       const Sums last = add_parts(interleaved(sums[4]), interleaved(sums[5]));
       const Sums first = add_parts(add_parts(interleaved(sums[0]), interleaved(sums[1])),
@@ -31,7 +20,7 @@ struct Avx512 {
       store_rows<4>(first, to.values, to);
       store_rows<2>(add_parts(last, last), to.values + 4 * to.stride, to);
     } else {
-      store_each<Avx512>(sums, to);
+      store_each<Tiles>(sums, to);
     }
   }
 
@@ -63,7 +52,7 @@ struct Avx512 {
 
 void absolute_difference_avx512(ByteImages queries, ByteImages references, ImageSize size,
                                 const ScaledSums& sums) {
-  sum_all<Avx512>(queries, references, size, sums);
+  sum_all<Tiles>(queries, references, size, sums);
 }
 
 }  // namespace place::kernels

@@ -1,24 +1,19 @@
 #pragma once
 
+#include "lanes/lanes.hpp"
 #include "match/kernels/absolute_difference.hpp"
 
 #include <algorithm>
-#include <utility>
 
 /// The sums of absolute differences, written once over any kind of lanes: tiles of a few queries by a few
-/// references whose sums stay in registers. `Lanes` has
-///   Bytes, Sums                     register types
-///   kBytes                          bytes of a Bytes
+/// references whose sums stay in registers. `Lanes` is a kind with, in addition,
 ///   kTileQueries, kTileReferences   about as many sums as there are registers for
-///   load(from), load_last(end, n)   kBytes bytes; the n bytes before `end` with zeros for the rest
-///   keep_in_register(bytes)         else GCC reads them from memory again for each use, at half the speed
-///   zero(), add(sums, a, b)
-///   total(sums)                     below 2^31
-///   store(sums, to)                 a tile's totals, of Sums[queries][references], scaled
+///   store_tile(sums, to)            a tile's totals, of Sums[queries][references], scaled
 /// Included only by the sources of `kernels`.
 namespace place::kernels {
 
-inline constexpr std::size_t kLine = 64;  ///< bytes of a cache line
+using vo::lanes::kLine;
+using vo::lanes::unrolled;
 
 /// Where the images of a tile begin.
 struct Tile {
@@ -28,16 +23,6 @@ struct Tile {
   ScaledSums sums;
   const std::uint8_t* ahead;  ///< 2 * size.bytes to fetch into the first-level cache meanwhile
 };
-
-/// body(0), body(1) ... body(kCount - 1) one after the other: of arrays that are indexed so, every element
-/// gets a register, where a loop leaves them in memory.
-template <std::size_t kCount, class Body>
-[[gnu::always_inline]] inline void unrolled(const Body& body) {
-  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) __attribute__((always_inline)) {
-    (body(kIndex), ...);
-  }
-  (std::make_index_sequence<kCount>());
-}
 
 /// The totals one by one.
 template <class Lanes, std::size_t kQueries, std::size_t kReferences>
@@ -56,7 +41,8 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
 [[gnu::noinline]] void sum_tile(const Tile& tile) {
   typename Lanes::Sums sums[kQueries][kReferences];
   unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
-    unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) { sums[i][j] = Lanes::zero(); });
+    unrolled<kReferences>([&](std::size_t j)
+                              __attribute__((always_inline)) { sums[i][j] = Lanes::no_sums(); });
   });
   const std::size_t size = tile.size.bytes, stride = tile.size.stride;
   const auto add_all = [&](const auto& load) __attribute__((always_inline)) {
@@ -68,7 +54,7 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
       typename Lanes::Bytes query = load(tile.queries + i * stride);
       Lanes::keep_in_register(query);
       unrolled<kReferences>([&](std::size_t j) __attribute__((always_inline)) {
-        sums[i][j] = Lanes::add(sums[i][j], references[j], query);
+        sums[i][j] = Lanes::add_differences(sums[i][j], references[j], query);
       });
     });
   };
@@ -76,7 +62,8 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
   for (std::size_t k = 0; k < whole; k += Lanes::kBytes) {
     for (std::size_t line = 0; line < 2 * Lanes::kBytes; line += kLine)
       __builtin_prefetch(tile.ahead + 2 * k + line, 0, 3);
-    add_all([k](const std::uint8_t* image) __attribute__((always_inline)) { return Lanes::load(image + k); });
+    add_all([k](const std::uint8_t* image)
+                __attribute__((always_inline)) { return Lanes::load_bytes(image + k); });
   }
   // Else GCC keeps a copy of every sum in memory for what follows.
   unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
@@ -87,7 +74,7 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
     add_all([ size, rest ](const std::uint8_t* image)
                 __attribute__((always_inline)) { return Lanes::load_last(image + size, rest); });
   }
-  Lanes::store(sums, tile.sums);
+  Lanes::store_tile(sums, tile.sums);
 }
 
 /// Tiles over all queries for `columns` times kReferences references, which stay in the first-level cache

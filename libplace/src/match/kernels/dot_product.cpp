@@ -1,6 +1,6 @@
 #include "match/kernels/dot_product.hpp"
 
-#include "lanes/scalar.hpp"
+#include "lanes/plain.hpp"
 #include "match/kernels/dot_product_tiles.hpp"
 
 #include <algorithm>

@@ -5,10 +5,15 @@
 /// The kernels, written once over any kind of lanes. Included only by the sources of `kernels`.
 namespace place::kernels {
 
+using vo::lanes::kLine;
 using vo::lanes::unrolled;
 
-inline constexpr std::size_t kLine = 64;   ///< bytes of a cache line
 inline constexpr std::size_t kAhead = 64;  ///< 32-bit groups to the ones that are fetched meanwhile
+
+template <class Lanes>
+[[gnu::always_inline]] inline auto load_sums(const std::int32_t* from) {
+  return Lanes::load(reinterpret_cast<const std::uint32_t*>(from));
+}
 
 /// Holds kQueries * kRegisters sums in registers. Not inlined: within a larger function compilers run out of
 /// registers and spill sums.
@@ -17,7 +22,7 @@ template <class Lanes, std::size_t kQueries, std::size_t kRegisters>
   constexpr std::size_t kBytes = Lanes::kCount * sizeof(std::uint32_t);
   typename Lanes::Int sums[kQueries][kRegisters];
   unrolled<kRegisters>([&](std::size_t j) __attribute__((always_inline)) {
-    const auto start = Lanes::load(tile.start + j * Lanes::kCount);
+    const auto start = load_sums<Lanes>(tile.start + j * Lanes::kCount);
     unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) { sums[i][j] = start; });
   });
   const std::uint8_t* query = tile.queries;
@@ -41,7 +46,8 @@ template <class Lanes, std::size_t kQueries, std::size_t kRegisters>
   }
   unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
     unrolled<kRegisters>([&](std::size_t j) __attribute__((always_inline)) {
-      Lanes::store(tile.sums + (i * kRegisters + j) * Lanes::kCount, sums[i][j]);
+      Lanes::store(reinterpret_cast<std::uint32_t*>(tile.sums) + (i * kRegisters + j) * Lanes::kCount,
+                   sums[i][j]);
     });
   });
 }
@@ -53,13 +59,13 @@ template <class Lanes, class Sum>
   const auto alike = [&](std::size_t shift) __attribute__((always_inline)) {
     const auto scaled =
         Lanes::mul(Lanes::to_float(sum(shift)), Lanes::load(a.reference_scales + shift * references + from));
-    return Lanes::mul(scaled, Lanes::all_float(a.query_scales[shift]));
+    return Lanes::mul(scaled, Lanes::all(a.query_scales[shift]));
   };
   auto most = alike(0);
   for (std::size_t shift = 1; shift < shifts; ++shift) most = Lanes::max(most, alike(shift));
-  const auto units = Lanes::all_float(kCostUnits);
+  const auto units = Lanes::all(kCostUnits);
   const auto whole = Lanes::to_float(Lanes::to_nearest(Lanes::sub(units, Lanes::mul(most, units))));
-  Lanes::store(a.costs + from, Lanes::mul(whole, Lanes::all_float(1 / kCostUnits)));
+  Lanes::store(a.costs + from, Lanes::mul(whole, Lanes::all(1 / kCostUnits)));
 }
 
 template <class Lanes, std::size_t kRegisters>
@@ -67,7 +73,7 @@ void shift_costs(const ShiftCosts& a) {
   for (std::size_t from = 0; from < kRegisters * Lanes::kCount; from += Lanes::kCount) {
     store_cost<Lanes>(
         a, a.shifts, from, kRegisters * Lanes::kCount, [&](std::size_t shift) __attribute__((always_inline)) {
-          return Lanes::load(a.sums + shift * a.stride + from);
+          return load_sums<Lanes>(a.sums + shift * a.stride + from);
         });
   }
 }
@@ -76,7 +82,7 @@ template <class Lanes, std::size_t kRegisters>
 void shift_costs_of_five(const ShiftCosts& a) {
   for (std::size_t from = 0; from < kRegisters * Lanes::kCount; from += Lanes::kCount) {
     const auto at = [&](std::size_t which) __attribute__((always_inline)) {
-      return Lanes::load(a.sums + which * a.stride + from);
+      return load_sums<Lanes>(a.sums + which * a.stride + from);
     };
     // Sums at the lags -1, 0 and 1 of the even columns, and of the odd ones.
     typename Lanes::Int even[3], odd[3];

@@ -1,6 +1,6 @@
 #include "match/kernels/float_sums.hpp"
 
-#include "lanes/scalar.hpp"
+#include "lanes/plain.hpp"
 #include "match/kernels/float_sums_tiles.hpp"
 
 namespace place::kernels {

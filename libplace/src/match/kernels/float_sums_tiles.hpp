@@ -14,7 +14,7 @@ template <class Lanes, Term kTerm, std::size_t kQueries, std::size_t kRegisters>
   typename Lanes::Float sums[kQueries][kRegisters];
   unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
     unrolled<kRegisters>([&](std::size_t j)
-                             __attribute__((always_inline)) { sums[i][j] = Lanes::all_float(0.0F); });
+                             __attribute__((always_inline)) { sums[i][j] = Lanes::all(0.0F); });
   });
   const float* query = tile.queries;
   const float* reference = tile.references;
@@ -24,7 +24,7 @@ template <class Lanes, Term kTerm, std::size_t kQueries, std::size_t kRegisters>
       references[j] = Lanes::load(reference + j * Lanes::kCount);
     });
     unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
-      const auto value = Lanes::all_float(query[i]);
+      const auto value = Lanes::all(query[i]);
       unrolled<kRegisters>([&](std::size_t j) __attribute__((always_inline)) {
         if constexpr (kTerm == Term::kProduct) {
           sums[i][j] = Lanes::add(sums[i][j], Lanes::mul(value, references[j]));
@@ -61,16 +61,16 @@ void add_terms(Term term, const FloatTile& tile) {
 
 template <class Lanes, std::size_t kRegisters>
 void float_costs(const FloatCostRow& a) {
-  const auto units = Lanes::all_float(a.units), unit = Lanes::all_float(1 / a.units);
+  const auto units = Lanes::all(a.units), unit = Lanes::all(1 / a.units);
   for (std::size_t j = 0; j < kRegisters * Lanes::kCount; j += Lanes::kCount) {
     auto in_units = Lanes::load(a.sums + j);
     if (a.reference_scales != nullptr) {
-      const auto cosine = Lanes::mul(Lanes::mul(in_units, Lanes::load(a.reference_scales + j)),
-                                     Lanes::all_float(a.query_scale));
-      in_units = Lanes::max(Lanes::sub(units, Lanes::mul(cosine, units)), Lanes::all_float(0.0F));
+      const auto cosine =
+          Lanes::mul(Lanes::mul(in_units, Lanes::load(a.reference_scales + j)), Lanes::all(a.query_scale));
+      in_units = Lanes::max(Lanes::sub(units, Lanes::mul(cosine, units)), Lanes::all(0.0F));
     } else {
       if (a.root) in_units = Lanes::sqrt(in_units);
-      in_units = Lanes::mul(Lanes::mul(in_units, Lanes::all_float(a.query_scale)), units);
+      in_units = Lanes::mul(Lanes::mul(in_units, Lanes::all(a.query_scale)), units);
     }
     Lanes::store(a.costs + j, Lanes::mul(Lanes::to_float(Lanes::to_nearest(in_units)), unit));
   }

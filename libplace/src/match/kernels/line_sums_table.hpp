@@ -11,8 +11,9 @@ template <class Lanes>
 void accumulate(const Accumulation& a) {
   std::size_t i = 0;
   for (; i + Lanes::kCount <= a.count; i += Lanes::kCount) {
-    const auto rounded = Lanes::rounded(Lanes::load(a.costs + i), a.centre, a.scale);
-    Lanes::store(a.out + i, Lanes::add(Lanes::load(a.before + i), rounded));
+    const auto from_centre = Lanes::sub(Lanes::load(a.costs + i), Lanes::all(a.centre));
+    const auto whole = Lanes::to_nearest(Lanes::mul(from_centre, Lanes::all(a.scale)));
+    Lanes::store(a.out + i, Lanes::add(Lanes::load(a.before + i), whole));
   }
   if (i == a.count) return;
   float costs[Lanes::kCount] = {};
@@ -56,13 +57,13 @@ template <class Lanes>
 float least(const LineSums& lines, std::size_t column, float factor, float* costs) {
   constexpr std::size_t kRegisters = kChunk / Lanes::kCount;
   typename Lanes::Int sums[kRegisters];
-  for (auto& sum : sums) sum = Lanes::all_int(std::numeric_limits<std::int32_t>::max());
+  for (auto& sum : sums) sum = Lanes::all(std::uint32_t{std::numeric_limits<std::int32_t>::max()});
   for_each_line<Lanes>(lines, column, [&](std::size_t, const typename Lanes::Int(&of_line)[kRegisters]) {
     for (std::size_t k = 0; k < kRegisters; ++k) sums[k] = Lanes::min(sums[k], of_line[k]);
   });
   typename Lanes::Float least[kRegisters];
   for (std::size_t k = 0; k < kRegisters; ++k)
-    least[k] = Lanes::mul(Lanes::to_float(sums[k]), Lanes::all_float(factor));
+    least[k] = Lanes::mul(Lanes::to_float(sums[k]), Lanes::all(factor));
   return store_costs<Lanes>(least, costs);
 }
 
@@ -71,7 +72,7 @@ float least_weighted(const LineSums& lines, std::size_t column, const float* fac
                      float* costs) {
   constexpr std::size_t kRegisters = kChunk / Lanes::kCount;
   typename Lanes::Float least[kRegisters];
-  for (auto& cost : least) cost = Lanes::all_float(std::numeric_limits<float>::infinity());
+  for (auto& cost : least) cost = Lanes::all(std::numeric_limits<float>::infinity());
   for_each_line<Lanes>(lines, column, [&](std::size_t line, const typename Lanes::Int(&sums)[kRegisters]) {
     for (std::size_t k = 0; k < kRegisters; ++k) {
       const std::size_t at = line * kChunk + k * Lanes::kCount;
