@@ -37,6 +37,10 @@ vo::ProgressCallback ProgressBar::callback() {
 bool ProgressBar::show(const vo::Progress& progress) {
   using std::chrono::milliseconds;
   const auto now = std::chrono::steady_clock::now();
+  if (progress.stage != stage_) {
+    stage_ = progress.stage;
+    start_ = now;
+  }
   const auto interval = terminal_ ? milliseconds(100) : milliseconds(10000);
   if (now - shown_ < interval) return interrupted == 0;
   shown_ = now;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 #include <vo/base/progress.hpp>
 
@@ -16,7 +17,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// A callback for one stage, to be used while this lives.
+  /// A callback for stages one after another, to be used while this lives; rates are of the stage.
   [[nodiscard]] vo::ProgressCallback callback();
 
  private:
@@ -24,6 +25,7 @@ class ProgressBar {
 
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point shown_;
+  std::string stage_;
   bool terminal_;
   bool drawn_ = false;
 };

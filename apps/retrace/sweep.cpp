@@ -1,28 +1,27 @@
 #include "command.hpp"
+#include "progress_bar.hpp"
 #include "sweep_files.hpp"
-#include "sweep_grid.hpp"
-#include "sweep_run.hpp"
 #include "truth_options.hpp"
 
 #include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
-#include <place/resolve.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 
 namespace retrace {
 namespace {
 
-std::vector<Axis> axes_of(const SweepOptions& options) {
-  std::vector<Axis> axes{{"motion", options.motions},
-                         {"sequence-length", options.lengths},
-                         {"search-range-rad", options.ranges}};
+std::vector<place::SweepAxis> axes_of(const SweepOptions& options) {
+  std::vector<place::SweepAxis> axes{{"motion", options.motions},
+                                     {"sequence-length", options.lengths},
+                                     {"search-range-rad", options.ranges}};
   for (const std::string& text : options.vary) {
-    axes.push_back(parse_axis(text));
-    const auto same = std::ranges::find(axes, axes.back().setting, &Axis::setting);
+    axes.push_back(place::parse_axis(text));
+    const auto same = std::ranges::find(axes, axes.back().setting, &place::SweepAxis::setting);
     if (same != axes.end() - 1)
       throw vo::Error("--vary " + text, "varies a setting twice",
                       fmt::format("one list of {}", same->setting));
@@ -30,25 +29,32 @@ std::vector<Axis> axes_of(const SweepOptions& options) {
   return axes;
 }
 
-/// Every cell's settings must be in range and go together, and every setting have an effect in some cell.
-void check_settings(const SweepOptions& options, const std::vector<Axis>& axes) {
-  place::Settings with_effect;
-  for (const Cell& cell : all_cells(axes))
-    with_effect = place::merged(
-        with_effect, place::resolve(settings_at(options.settings, axes, cell), {.pass_over = true}));
-  for (const place::Setting& setting : place::settings_table()) {
-    if (place::text_of(options.settings, setting) && !place::text_of(with_effect, setting))
-      throw vo::Error(std::string(setting.name), "has no effect in any cell of this sweep",
-                      "other axes, or this setting left out");
-  }
-}
-
 void sweep(const SweepOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
-  const std::vector<Axis> axes = axes_of(options);
-  check_settings(options, axes);
-  SweepResults results = resume_sweep(options, axes);
-  if (!run_sweep(options, axes, results)) {
+  const std::vector<place::SweepAxis> axes = axes_of(options);
+  place::check_sweep(options.settings, axes);
+  const Truth truth = read_truth(options.truth);
+  place::SweepResults results = resume_sweep(options, axes);
+  bool finished = false;
+  {
+    ProgressBar bar;
+    const auto reader = [&bar](const std::string& source) {
+      return [&bar, &source](const vo::WalkOptions& walk) {
+        return vo::read_walk(source, walk, bar.callback());
+      };
+    };
+    finished =
+        place::sweep({.query = reader(options.query),
+                      .reference = reader(options.reference),
+                      .truth = truth.places,
+                      .tolerance = options.truth.tolerance,
+                      .settings = options.settings},
+                     axes, results,
+                     {.keep = [&](const place::SweepResults& all) { write_sweep_csv(options, axes, all); },
+                      .warn = [](const std::string& warning) { spdlog::warn("{}", warning); },
+                      .progress = bar.callback()});
+  }
+  if (!finished) {
     throw vo::Error(options.output, "the sweep was stopped",
                     "the same command again, which goes on from here");
   }

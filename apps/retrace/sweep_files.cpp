@@ -22,25 +22,25 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// What a sweep is of; another one does not go into the same folder.
-std::string description_of(const SweepOptions& options, const std::vector<Axis>& axes) {
+std::string description_of(const SweepOptions& options, const std::vector<place::SweepAxis>& axes) {
   std::string text =
       fmt::format("# Sweep of {} on {}\n# truth: {} {} {}, tolerance {}\n# varied:", options.query,
                   options.reference, options.truth.pairs, options.truth.query_truth,
                   options.truth.reference_truth, tolerance_text(options.truth.tolerance));
-  for (const Axis& axis : axes) text += " " + axis.setting;
+  for (const place::SweepAxis& axis : axes) text += " " + axis.setting;
   place::Settings settings = options.settings;
   settings.threads.reset();  // makes no difference
   return text + "\n" + to_toml(settings);
 }
 
-std::string flags_of(const std::vector<Axis>& axes, const Cell& cell) {
+std::string flags_of(const std::vector<place::SweepAxis>& axes, const place::SweepCell& cell) {
   std::string flags;
   for (std::size_t i = 0; i < axes.size(); ++i) flags += fmt::format(" --{} {}", axes[i].setting, cell[i]);
   return flags;
 }
 
-ordered_json cell_json(const std::vector<Axis>& axes, const Cell& cell,
-                       const std::optional<CellResult>& result) {
+ordered_json cell_json(const std::vector<place::SweepAxis>& axes, const place::SweepCell& cell,
+                       const std::optional<place::CellResult>& result) {
   ordered_json json;
   for (std::size_t i = 0; i < axes.size(); ++i) json[axes[i].setting] = cell[i];
   if (!result) return json;
@@ -55,27 +55,32 @@ ordered_json cell_json(const std::vector<Axis>& axes, const Cell& cell,
 
 }  // namespace
 
-SweepResults resume_sweep(const SweepOptions& options, const std::vector<Axis>& axes) {
+place::SweepResults resume_sweep(const SweepOptions& options, const std::vector<place::SweepAxis>& axes) {
   const fs::path folder = options.output;
   const std::string description = description_of(options, axes);
   prepare_run_directory(folder, {}, true);
   const fs::path mark = folder / "sweep.toml";
-  SweepResults done;
+  place::SweepResults done;
   if (!options.common.force) {
     std::ifstream file(mark);
     const std::string before{std::istreambuf_iterator<char>(file), {}};
     if (fs::exists(mark) ? before != description : fs::exists(folder / "sweep.csv")) {
       throw vo::Error(folder.string(), "holds another sweep", "another folder, or --force to begin anew");
     }
-    done = read_sweep(folder / "sweep.csv", axes);
+    done = place::read_sweep(folder / "sweep.csv", axes);
   }
-  vo::write_file(folder / "sweep.csv", sweep_csv(axes, done));
+  write_sweep_csv(options, axes, done);
   vo::write_file(mark, description);
   return done;
 }
 
-void write_sweep_report(const SweepOptions& options, const std::vector<Axis>& axes,
-                        const SweepResults& results) {
+void write_sweep_csv(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                     const place::SweepResults& results) {
+  vo::write_file(fs::path(options.output) / "sweep.csv", place::sweep_csv(axes, results));
+}
+
+void write_sweep_report(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                        const place::SweepResults& results) {
   const fs::path folder = options.output;
   vo::write_file(folder / "report.html",
                  sweep_report(axes, results, fmt::format("{} on {}", options.query, options.reference),
@@ -85,21 +90,23 @@ void write_sweep_report(const SweepOptions& options, const std::vector<Axis>& ax
   vo::write_file(folder / "heat_map.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
-void print_sweep(const SweepOptions& options, const std::vector<Axis>& axes, const SweepResults& results) {
-  const std::optional<Cell> best = best_cell(axes, results);
+void print_sweep(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                 const place::SweepResults& results) {
+  const std::optional<place::SweepCell> best = best_cell(axes, results);
   if (options.common.json) {
     ordered_json json{{"best", nullptr}, {"cells", ordered_json::array()}};
     if (best) json["best"] = cell_json(axes, *best, results.at(*best));
-    for (const Cell& cell : all_cells(axes)) json["cells"].push_back(cell_json(axes, cell, results.at(cell)));
+    for (const place::SweepCell& cell : place::all_cells(axes))
+      json["cells"].push_back(cell_json(axes, cell, results.at(cell)));
     fmt::print("{}\n", json.dump(2));
     return;
   }
   fmt::print("  {:<8}{:>14}{:>8}{:>11}{:>9}   {}\n", "motion", "keyframes", "max-F1", "precision", "recall",
              "at");
   for (const std::string& motion : options.motions) {
-    const std::optional<Cell> cell = best_cell(axes, results, motion);
+    const std::optional<place::SweepCell> cell = best_cell(axes, results, motion);
     if (!cell) continue;
-    const CellResult& r = *results.at(*cell);
+    const place::CellResult& r = *results.at(*cell);
     fmt::print("  {:<8}{:>14}{:>8.3f}{:>11.3f}{:>9.3f}  {}\n", motion,
                fmt::format("{} x {}", r.query_keyframes, r.reference_keyframes), r.max_f1, r.precision,
                r.recall, flags_of(axes, *cell));

@@ -1,20 +1,42 @@
 #pragma once
 
-#include "sweep_run.hpp"
+#include "command.hpp"
+#include "truth_options.hpp"
 
+#include <string>
 #include <vector>
+
+#include <place/evaluation/sweep.hpp>
 
 namespace retrace {
 
+struct SweepOptions {
+  place::Settings settings;
+  CommonOptions common;
+  TruthOptions truth;
+  std::string query;
+  std::string reference;
+  std::string output;
+  std::vector<std::string> motions{"sad", "none"};
+  std::vector<std::string> lengths{"5", "10", "20", "40"};
+  std::vector<std::string> ranges{"0", "0.1", "0.2", "0.4", "0.6"};
+  std::vector<std::string> vary;
+};
+
 /// What was done before, if the output folder holds the same sweep; with it the folder is ready for more.
 /// Throws `vo::Error` if the folder holds another sweep and `force` was not given.
-SweepResults resume_sweep(const SweepOptions& options, const std::vector<Axis>& axes);
+place::SweepResults resume_sweep(const SweepOptions& options, const std::vector<place::SweepAxis>& axes);
+
+/// Writes sweep.csv.
+void write_sweep_csv(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                     const place::SweepResults& results);
 
 /// Writes report.html and heat_map.png.
-void write_sweep_report(const SweepOptions& options, const std::vector<Axis>& axes,
-                        const SweepResults& results);
+void write_sweep_report(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                        const place::SweepResults& results);
 
 /// The best cell of each motion and of all, on standard output; as JSON every cell.
-void print_sweep(const SweepOptions& options, const std::vector<Axis>& axes, const SweepResults& results);
+void print_sweep(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                 const place::SweepResults& results);
 
 }  // namespace retrace

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t kMotion = 0, kLength = 1, kRange = 2, kFurther = 3;
 
-double max_f1(const SweepResults& results, const Cell& cell) {
+double max_f1(const place::SweepResults& results, const place::SweepCell& cell) {
   const auto found = results.find(cell);
   return found != results.end() && found->second ? found->second->max_f1 : NAN;
 }
 
 /// A value as a number where all of the axis are, else its place among them.
-double position(const Axis& axis, std::size_t i) {
+double position(const place::SweepAxis& axis, std::size_t i) {
   const auto number = [](const std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
@@ -31,8 +31,8 @@ double position(const Axis& axis, std::size_t i) {
 }
 
 /// Max-F1 along one axis from a cell, the other axes as in it.
-Series along(const std::vector<Axis>& axes, const SweepResults& results, Cell cell, std::size_t axis,
-             std::string name, std::size_t style) {
+Series along(const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
+             place::SweepCell cell, std::size_t axis, std::string name, std::size_t style) {
   Series series = styled({.name = std::move(name), .size_px = 4.5}, style);
   for (std::size_t i = 0; i < axes[axis].values.size(); ++i) {
     cell[axis] = axes[axis].values[i];
@@ -43,13 +43,13 @@ Series along(const std::vector<Axis>& axes, const SweepResults& results, Cell ce
   return series;
 }
 
-std::array<double, 2> f1_range(const SweepResults& results) {
+std::array<double, 2> f1_range(const place::SweepResults& results) {
   double low = 1;
   for (const auto& [cell, result] : results) low = std::min(low, result ? result->max_f1 : 1.0);
   return {std::max(0.0, std::floor(10 * low - 0.5) / 10), 1.02};
 }
 
-std::vector<std::string> result_cells(const std::optional<CellResult>& r) {
+std::vector<std::string> result_cells(const std::optional<place::CellResult>& r) {
   if (!r) return std::vector<std::string>(7, "–");
   return {fmt::format("{} x {}", r->query_keyframes, r->reference_keyframes),
           fmt::format("{:.3f}", r->max_f1),
@@ -60,15 +60,15 @@ std::vector<std::string> result_cells(const std::optional<CellResult>& r) {
           fmt::format("{:.3f}", r->recall_at_1)};
 }
 
-void put_table(Page& page, const std::vector<Axis>& axes, const SweepResults& results,
-               const std::vector<Cell>& cells) {
+void put_table(Page& page, const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
+               const std::vector<place::SweepCell>& cells) {
   std::vector<std::string> header;
-  for (const Axis& axis : axes) header.push_back(axis.setting);
+  for (const place::SweepAxis& axis : axes) header.push_back(axis.setting);
   for (const char* name :
        {"keyframes", "max-F1", "precision", "recall", "AUC", "recall at 100 %", "recall@1"})
     header.emplace_back(name);
   std::vector<std::vector<std::string>> rows;
-  for (const Cell& cell : cells) {
+  for (const place::SweepCell& cell : cells) {
     const auto found = results.find(cell);
     if (found == results.end()) continue;
     rows.push_back(cell);
@@ -77,7 +77,8 @@ void put_table(Page& page, const std::vector<Axis>& axes, const SweepResults& re
   page.table(header, rows);
 }
 
-void put_curves(Page& page, const std::vector<Axis>& axes, const SweepResults& results, const Cell& best) {
+void put_curves(Page& page, const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
+                const place::SweepCell& best) {
   for (const std::size_t axis : {kRange, kLength}) {
     const std::size_t other = axis == kRange ? kLength : kRange;
     if (axes[axis].values.size() < 2) continue;
@@ -86,7 +87,7 @@ void put_curves(Page& page, const std::vector<Axis>& axes, const SweepResults& r
                 .y_title = "max-F1, motion " + best[kMotion],
                 .y_range = f1_range(results)};
     for (std::size_t i = 0; i < axes[other].values.size(); ++i) {
-      Cell cell = best;
+      place::SweepCell cell = best;
       cell[other] = axes[other].values[i];
       chart.series.push_back(
           along(axes, results, cell, axis, fmt::format("{} {}", axes[other].setting, cell[other]), i));
@@ -97,10 +98,10 @@ void put_curves(Page& page, const std::vector<Axis>& axes, const SweepResults& r
 
 }  // namespace
 
-std::optional<Cell> best_cell(const std::vector<Axis>& axes, const SweepResults& results,
-                              const std::string& motion) {
-  std::optional<Cell> best;
-  for (const Cell& cell : all_cells(axes)) {
+std::optional<place::SweepCell> best_cell(const std::vector<place::SweepAxis>& axes,
+                                          const place::SweepResults& results, const std::string& motion) {
+  std::optional<place::SweepCell> best;
+  for (const place::SweepCell& cell : place::all_cells(axes)) {
     if (!motion.empty() && cell[kMotion] != motion) continue;
     const double f1 = max_f1(results, cell);
     if (!std::isnan(f1) && (!best || f1 > max_f1(results, *best))) best = cell;
@@ -108,10 +109,11 @@ std::optional<Cell> best_cell(const std::vector<Axis>& axes, const SweepResults&
   return best;
 }
 
-std::vector<HeatTable> heat_tables(const std::vector<Axis>& axes, const SweepResults& results) {
+std::vector<HeatTable> heat_tables(const std::vector<place::SweepAxis>& axes,
+                                   const place::SweepResults& results) {
   std::vector<HeatTable> tables;
   for (const std::string& motion : axes[kMotion].values) {
-    std::optional<Cell> cell = best_cell(axes, results, motion);
+    std::optional<place::SweepCell> cell = best_cell(axes, results, motion);
     if (!cell) continue;
     HeatTable table{.title = fmt::format("max-F1, motion {}", motion),
                     .row_title = "length",
@@ -133,14 +135,15 @@ std::vector<HeatTable> heat_tables(const std::vector<Axis>& axes, const SweepRes
   return tables;
 }
 
-std::string sweep_report(const std::vector<Axis>& axes, const SweepResults& results,
+std::string sweep_report(const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
                          const std::string& subtitle,
                          const std::vector<std::pair<std::string, std::string>>& facts) {
   Page page("Which settings find the walk", subtitle);
-  const std::optional<Cell> best = best_cell(axes, results);
-  std::vector<Cell> best_of_motions;
+  const std::optional<place::SweepCell> best = best_cell(axes, results);
+  std::vector<place::SweepCell> best_of_motions;
   for (const std::string& motion : axes[kMotion].values) {
-    if (const std::optional<Cell> cell = best_cell(axes, results, motion)) best_of_motions.push_back(*cell);
+    if (const std::optional<place::SweepCell> cell = best_cell(axes, results, motion))
+      best_of_motions.push_back(*cell);
   }
   if (best) {
     std::vector<Headline> headlines{
@@ -155,7 +158,7 @@ std::string sweep_report(const std::vector<Axis>& axes, const SweepResults& resu
   page.heading("Sequence length and search range");
   page.paragraph("The darker, the higher; the star is the highest of a table [SSS Fig. 8].");
   page.heat_tables(heat_tables(axes, results));
-  for (const Cell& cell : best_of_motions) put_curves(page, axes, results, cell);
+  for (const place::SweepCell& cell : best_of_motions) put_curves(page, axes, results, cell);
   for (std::size_t i = kFurther; i < axes.size(); ++i) {
     page.heading(axes[i].setting);
     Chart chart{.title = "max-F1 against " + axes[i].setting,
@@ -169,7 +172,7 @@ std::string sweep_report(const std::vector<Axis>& axes, const SweepResults& resu
     page.chart(chart, "The other settings as in the best cell of each motion source.");
   }
   page.heading("All cells");
-  put_table(page, axes, results, all_cells(axes));
+  put_table(page, axes, results, place::all_cells(axes));
   page.heading("How it was counted");
   page.paragraph(kCounting);
   return page.html();

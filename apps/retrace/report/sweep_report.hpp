@@ -1,26 +1,28 @@
 #pragma once
 
 #include "report/page.hpp"
-#include "sweep_grid.hpp"
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <place/evaluation/sweep_grid.hpp>
+
 namespace retrace {
 
 /// The cell of the highest max-F1, the first of equals; none if no cell could be run. With `motion`, only of
 /// cells of that first value.
-std::optional<Cell> best_cell(const std::vector<Axis>& axes, const SweepResults& results,
-                              const std::string& motion = {});
+std::optional<place::SweepCell> best_cell(const std::vector<place::SweepAxis>& axes,
+                                          const place::SweepResults& results, const std::string& motion = {});
 
 /// Max-F1 by sequence length and search range (SSS Fig. 8), a table for each motion source, the other
 /// settings as in its best cell. The first three axes are motion, length and range.
-std::vector<HeatTable> heat_tables(const std::vector<Axis>& axes, const SweepResults& results);
+std::vector<HeatTable> heat_tables(const std::vector<place::SweepAxis>& axes,
+                                   const place::SweepResults& results);
 
 /// The page: best settings, heat tables, curves, every further axis by itself, all cells. `facts` stand at
 /// its head.
-std::string sweep_report(const std::vector<Axis>& axes, const SweepResults& results,
+std::string sweep_report(const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
                          const std::string& subtitle,
                          const std::vector<std::pair<std::string, std::string>>& facts);
 

@@ -1,4 +1,4 @@
-#include "sweep_grid.hpp"
+#include "place/evaluation/sweep_grid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <vo/base/error.hpp>
 #include <vo/io/csv.hpp>
 
-namespace retrace {
+namespace place {
 namespace {
 
 /// A column of sweep.csv.
@@ -28,7 +28,7 @@ constexpr std::array kColumns{Column{"max_f1", &CellResult::max_f1},
 
 /// What may change from cell to cell, though walks are read once, or once for each descriptor: not the
 /// pictures and points kept of them, nor what makes no difference to precision and recall.
-bool can_vary(const place::Setting& setting) {
+bool can_vary(const Setting& setting) {
   if (setting.name == "descriptor") return true;
   constexpr std::array kNotHere{"compat",        "sequence-length-m",  "threads",
                                 "accept-score",  "accept-probability", "correct-drift",
@@ -46,7 +46,7 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-std::string row(const Cell& cell, const std::optional<CellResult>& result) {
+std::string row(const SweepCell& cell, const std::optional<CellResult>& result) {
   std::string text = fmt::format("{}", fmt::join(cell, ","));
   text += result ? fmt::format(",{},{}", result->query_keyframes, result->reference_keyframes) : ",,";
   for (const Column& column : kColumns)
@@ -56,9 +56,9 @@ std::string row(const Cell& cell, const std::optional<CellResult>& result) {
 
 }  // namespace
 
-Axis parse_axis(const std::string& text) {
+SweepAxis parse_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
-  Axis axis;
+  SweepAxis axis;
   if (equals != std::string::npos) {
     axis = {text.substr(0, equals), split(text.substr(equals + 1))};
     axis.setting.erase(0, std::min(axis.setting.find_first_not_of('-'), axis.setting.size()));
@@ -68,11 +68,11 @@ Axis parse_axis(const std::string& text) {
   return axis;
 }
 
-std::vector<Cell> all_cells(const std::vector<Axis>& axes) {
-  std::vector<Cell> cells{{}};
-  for (const Axis& axis : axes) {
-    std::vector<Cell> longer;
-    for (const Cell& cell : cells) {
+std::vector<SweepCell> all_cells(const std::vector<SweepAxis>& axes) {
+  std::vector<SweepCell> cells{{}};
+  for (const SweepAxis& axis : axes) {
+    std::vector<SweepCell> longer;
+    for (const SweepCell& cell : cells) {
       for (const std::string& value : axis.values) {
         longer.push_back(cell);
         longer.back().push_back(value);
@@ -83,13 +83,13 @@ std::vector<Cell> all_cells(const std::vector<Axis>& axes) {
   return cells;
 }
 
-place::Settings settings_at(const place::Settings& base, const std::vector<Axis>& axes, const Cell& cell) {
-  place::Settings settings = base;
+Settings settings_at(const Settings& base, const std::vector<SweepAxis>& axes, const SweepCell& cell) {
+  Settings settings = base;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const place::Setting& setting = place::setting_named(axes[i].setting);
+    const Setting& setting = setting_named(axes[i].setting);
     if (!can_vary(setting))
       throw vo::Error("--vary " + axes[i].setting, "cannot vary", "a setting of sampling or search");
-    place::set(settings, setting, cell[i]);
+    set(settings, setting, cell[i]);
   }
   if (settings.motion == "file")
     throw vo::Error("motion=file", "cannot be swept", "a motion that both walks show themselves");
@@ -97,17 +97,17 @@ place::Settings settings_at(const place::Settings& base, const std::vector<Axis>
 }
 
 bool shapes_the_matrix(const std::string& setting) {
-  return place::setting_named(setting).group != place::SettingGroup::kSearch || setting == "max-shift-px";
+  return setting_named(setting).group != SettingGroup::kSearch || setting == "max-shift-px";
 }
 
-std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results) {
+std::string sweep_csv(const std::vector<SweepAxis>& axes, const SweepResults& results) {
   std::string csv;
-  for (const Axis& axis : axes) csv += axis.setting + ",";
+  for (const SweepAxis& axis : axes) csv += axis.setting + ",";
   csv += "query_keyframes,reference_keyframes";
   for (const Column& column : kColumns) csv += fmt::format(",{}", column.name);
   csv += "\n";
   SweepResults left = results;
-  for (const Cell& cell : all_cells(axes)) {
+  for (const SweepCell& cell : all_cells(axes)) {
     const auto found = left.find(cell);
     if (found == left.end()) continue;
     csv += row(cell, found->second);
@@ -117,12 +117,12 @@ std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results
   return csv;
 }
 
-SweepResults read_sweep(const std::filesystem::path& path, const std::vector<Axis>& axes) {
+SweepResults read_sweep(const std::filesystem::path& path, const std::vector<SweepAxis>& axes) {
   SweepResults results;
   if (!std::filesystem::exists(path)) return results;
   const vo::CsvTable table = vo::CsvTable::read(path);
-  std::vector<Cell> cells(table.rows());
-  for (const Axis& axis : axes) {
+  std::vector<SweepCell> cells(table.rows());
+  for (const SweepAxis& axis : axes) {
     if (!table.has(axis.setting))
       throw vo::Error(path.string(), fmt::format("is of a sweep that did not vary {}", axis.setting),
                       "the same axes, another folder, or --force to begin anew");
@@ -147,4 +147,4 @@ SweepResults read_sweep(const std::filesystem::path& path, const std::vector<Axi
   return results;
 }
 
-}  // namespace retrace
+}  // namespace place

@@ -1,23 +1,23 @@
 #pragma once
 
+#include "place/settings.hpp"
+
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <place/settings.hpp>
-
-namespace retrace {
+namespace place {
 
 /// A setting and the values it takes.
-struct Axis {
+struct SweepAxis {
   std::string setting;  ///< its name, without dashes
   std::vector<std::string> values;
 };
 
 /// A cell of a sweep: one value for each axis.
-using Cell = std::vector<std::string>;
+using SweepCell = std::vector<std::string>;
 
 /// What came out of a cell.
 struct CellResult {
@@ -28,25 +28,25 @@ struct CellResult {
 };
 
 /// None for a cell that cannot be run: a walk without steps, a route shorter than the sequence.
-using SweepResults = std::map<Cell, std::optional<CellResult>>;
+using SweepResults = std::map<SweepCell, std::optional<CellResult>>;
 
 /// `NAME=a,b,c`. Throws `vo::Error` for anything else.
-Axis parse_axis(const std::string& text);
+SweepAxis parse_axis(const std::string& text);
 
 /// Every cell, the last axis fastest.
-std::vector<Cell> all_cells(const std::vector<Axis>& axes);
+std::vector<SweepCell> all_cells(const std::vector<SweepAxis>& axes);
 
 /// The settings of a cell: `base` with the axes' values in it. Throws `vo::Error` naming a setting that there
 /// is not, that is fixed once a walk is read, or that does not take its value.
-place::Settings settings_at(const place::Settings& base, const std::vector<Axis>& axes, const Cell& cell);
+Settings settings_at(const Settings& base, const std::vector<SweepAxis>& axes, const SweepCell& cell);
 
 /// True if the setting changes keyframes or their descriptors, and so the cost matrix.
 bool shapes_the_matrix(const std::string& setting);
 
 /// sweep.csv: a row for each cell, those of the grid first and in its order.
-std::string sweep_csv(const std::vector<Axis>& axes, const SweepResults& results);
+std::string sweep_csv(const std::vector<SweepAxis>& axes, const SweepResults& results);
 
 /// Reads it back; empty if it is not there. Throws `vo::Error` if it is of other axes.
-SweepResults read_sweep(const std::filesystem::path& path, const std::vector<Axis>& axes);
+SweepResults read_sweep(const std::filesystem::path& path, const std::vector<SweepAxis>& axes);
 
-}  // namespace retrace
+}  // namespace place

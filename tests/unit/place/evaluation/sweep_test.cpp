@@ -1,0 +1,120 @@
+#include "support/known_walk.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <place/evaluation/sweep.hpp>
+#include <vo/base/error.hpp>
+
+namespace {
+
+using namespace test_support;
+using place::SweepAxis;
+using place::SweepResults;
+
+class SweepTest : public testing::Test {
+ protected:
+  SweepTest() {
+    input_.settings.descriptor = "thumbnail";  // all that these walks have
+    input_.settings.search = "lines";
+    input_.tolerance.tolerance_m = 1;
+    input_.query = [this](const vo::WalkOptions& options) { return read(night_, options); };
+    input_.reference = [this](const vo::WalkOptions& options) { return read(day_, options); };
+    for (const double px : night_.place_px) input_.truth.query_distance_m.push_back(px / 10);
+    for (const double px : day_.place_px) input_.truth.reference_distance_m.push_back(px / 10);
+  }
+
+  /// The wall has no points to follow.
+  vo::Walk read(const KnownWalk& known, const vo::WalkOptions& options) {
+    ++reads_;
+    vo::Walk walk = known.walk;
+    if (options.track_features) walk.tracked.resize(walk.frames());
+    return walk;
+  }
+
+  Wall wall_{kWallPx, 1};
+  KnownWalk day_ = steady_walk(wall_, 0.5);
+  KnownWalk night_ = steady_walk(wall_, 0.8, 100, 500);
+  place::SweepInput input_;
+  int reads_ = 0;
+};
+
+TEST_F(SweepTest, RunsEveryCellAndReadsEachWalkOnce) {
+  const std::vector<SweepAxis> axes{{"motion", {"sad", "none"}}, {"sequence-length", {"1", "10"}}};
+  SweepResults results;
+  EXPECT_TRUE(place::sweep(input_, axes, results));
+  EXPECT_EQ(reads_, 2);
+  EXPECT_THAT(results, testing::SizeIs(4));
+  const auto resampled = results.at({"sad", "10"});
+  ASSERT_TRUE(resampled);
+  EXPECT_GT(resampled->max_f1, results.at({"sad", "1"})->max_f1 - 1e-9);
+  EXPECT_EQ(resampled->query_keyframes, results.at({"sad", "1"})->query_keyframes);
+}
+
+TEST_F(SweepTest, KeepsAsManyKeyframesWithoutMotion) {
+  const std::vector<SweepAxis> axes{{"motion", {"sad", "none"}}};
+  SweepResults results;
+  place::sweep(input_, axes, results);
+  const auto count = [&](const char* motion) {
+    const auto& cell = results.at({motion});
+    return static_cast<double>(cell->query_keyframes + cell->reference_keyframes);
+  };
+  const double frames = static_cast<double>(day_.place_px.size() + night_.place_px.size());
+  // Every K-th frame, K whole: within half a frame of what resampling keeps.
+  const double every = frames / count("sad");
+  EXPECT_GE(count("none"), frames / (every + 0.5) - 2);
+  EXPECT_LE(count("none"), frames / (every - 0.5) + 2);
+}
+
+TEST_F(SweepTest, GoesOnFromWhatIsThere) {
+  const std::vector<SweepAxis> axes{{"motion", {"sad"}}, {"sequence-length", {"5", "10"}}};
+  SweepResults results;
+  results[{"sad", "5"}] = place::CellResult{.query_keyframes = 1234};
+  place::sweep(input_, axes, results);
+  EXPECT_EQ(results.at({"sad", "5"})->query_keyframes, 1234U);
+  EXPECT_NE(results.at({"sad", "10"})->query_keyframes, 1234U);
+  reads_ = 0;
+  place::sweep(input_, axes, results);
+  EXPECT_EQ(reads_, 0);
+}
+
+TEST_F(SweepTest, KeepsResultsAsItGoesAndStopsWhenAsked) {
+  const std::vector<SweepAxis> axes{{"motion", {"sad"}}, {"enhance", {"local", "none"}}};
+  SweepResults results, kept;
+  EXPECT_FALSE(place::sweep(input_, axes, results,
+                            {.keep = [&](const SweepResults& all) { kept = all; },
+                             .progress = [](const vo::Progress&) { return false; }}));
+  EXPECT_THAT(kept, testing::SizeIs(1));
+  EXPECT_EQ(results.size(), kept.size());
+}
+
+TEST_F(SweepTest, WarnsOfCellsThatCannotBeRun) {
+  const std::vector<SweepAxis> axes{{"motion", {"steps", "sad"}}};  // a wall without points has no steps
+  SweepResults results;
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(
+      place::sweep(input_, axes, results, {.warn = [&](const std::string& w) { warnings.push_back(w); }}));
+  EXPECT_FALSE(results.at({"steps"}));
+  EXPECT_TRUE(results.at({"sad"}));
+  ASSERT_THAT(warnings, testing::SizeIs(1));
+  EXPECT_THAT(warnings.front(), testing::StartsWith("motion steps: "));
+  const std::vector<SweepAxis> long_ones{{"motion", {"sad"}}, {"sequence-length", {"1000"}}};
+  results.clear();
+  place::sweep(input_, long_ones, results);
+  EXPECT_FALSE(results.at({"sad", "1000"}));
+}
+
+TEST(CheckSweep, RefusesASettingWithoutEffect) {
+  place::Settings base;
+  base.step_length = 0.8;
+  EXPECT_THROW_WITH(place::check_sweep(base, {{"motion", {"sad", "none"}}}), vo::Error,
+                    "step-length: has no effect in any cell");
+  EXPECT_NO_THROW(place::check_sweep(base, {{"motion", {"sad", "steps"}}}));
+  EXPECT_THROW_WITH(place::check_sweep({}, {{"sequence-length", {"0"}}}), vo::Error, "sequence-length");
+}
+
+}  // namespace
