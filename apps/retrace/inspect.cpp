@@ -63,6 +63,7 @@ ordered_json as_json(const std::string& path, const place::Route& route) {
         k["y_m"] = keyframe.pose->y_m;
         k["heading_rad"] = keyframe.pose->heading_rad;
       }
+      if (keyframe.after_gap) k["after_gap"] = true;
       keyframes.push_back(std::move(k));
     }
     json["traverses"].push_back({{"name", traverse.name},
@@ -93,6 +94,10 @@ void print(const std::string& path, const place::Route& route) {
     fmt::print("\ntraverse '{}' from {}\n", traverse.name, traverse.source);
     fmt::print("  {} frames of {}x{} px, {:.2f} s; {} keyframes\n", traverse.frames, traverse.frame_width_px,
                traverse.frame_height_px, traverse.duration_s, traverse.keyframes.size());
+    for (const std::size_t gap : place::gaps_of(traverse)) {
+      fmt::print("  interrupted between frames {} and {}\n", traverse.keyframes[gap - 1].frame,
+                 traverse.keyframes[gap].frame);
+    }
     if (traverse.settings.descriptor)
       fmt::print("  described by {}, {} bytes a keyframe\n", *traverse.settings.descriptor,
                  descriptor_bytes(traverse));

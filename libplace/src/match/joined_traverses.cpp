@@ -22,8 +22,12 @@ std::vector<std::vector<TraverseMap>> maps_between(const Route& route, const Rou
     for (std::size_t on = 0; on < of; ++on) {
       const int length = sequence_length_on(route.traverses[on], options);
       const TraverseCosts costs = costs_against(walk, route.traverses[on], on, all, length, {});
-      const SureMatches matches =
-          search_surely(costs.enhanced, search_method("path"), {.sequence = {.length = length}});
+      const SureMatches matches = search_surely(
+          costs.enhanced, search_method("path"),
+          {.sequence = {.length = length},
+           .graph = {},
+           .path = {},
+           .gaps = {.query = gaps_of(route.traverses[of]), .reference = gaps_of(route.traverses[on])}});
       maps[of][on] = map_from_matches(matches.matches);
       maps[on][of] = inverse_map(maps[of][on], route.traverses[on].keyframes.size());
       if (std::ranges::none_of(maps[of][on], [](const auto& at) { return at.has_value(); })) {

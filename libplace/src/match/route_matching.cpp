@@ -67,6 +67,17 @@ std::vector<double> keyframe_steps(const SampledWalk& sampled, const Traverse& t
   return steps;
 }
 
+/// The gaps of a traverse, `gaps` by keyframe, among the columns that are compared: between the stretches of
+/// a shortlist, too, the traverse goes on elsewhere.
+std::vector<std::size_t> gaps_between(const std::vector<std::size_t>& columns,
+                                      const std::vector<std::size_t>& gaps) {
+  std::vector<std::size_t> among;
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    if (columns[k] != columns[k - 1] + 1 || std::ranges::binary_search(gaps, columns[k])) among.push_back(k);
+  }
+  return among;
+}
+
 /// Metres of the way between a keyframe's neighbours, for each keyframe between them; none unless surveyed.
 std::optional<double> local_spacing_m(const Traverse& traverse, std::size_t keyframe) {
   const std::size_t before = keyframe - std::min<std::size_t>(keyframe, 1);
@@ -128,7 +139,7 @@ SearchOptions search_on_route(const Traverse& traverse, std::span<const double> 
   SearchOptions search{.sequence = options.search,
                        .graph = {},
                        .path = {},
-                       .gaps = {.query = gaps_at(sampled.frames, time_s), .reference = {}}};
+                       .gaps = {.query = gaps_at(sampled.frames, time_s), .reference = gaps_of(traverse)}};
   search.sequence.length = sequence_length_on(traverse, options);
   search.path.steps = keyframe_steps(sampled, traverse);
   return search;
@@ -169,10 +180,8 @@ RouteMatches match_on_route(const Route& route, std::span<const double> time_s, 
   std::size_t most_taken = 0;
   for (std::size_t i = 0; i < route.traverses.size(); ++i) {
     SearchOptions search = search_on_route(route.traverses[i], time_s, sampled, options);
-    // Between the stretches of a shortlist the traverse goes on elsewhere.
     const std::vector<std::size_t>& columns = costs[i].columns;
-    for (std::size_t k = 1; k < columns.size(); ++k)
-      if (columns[k] != columns[k - 1] + 1) search.gaps.reference.push_back(k);
+    search.gaps.reference = gaps_between(columns, search.gaps.reference);
     const SureMatches found = search_surely(costs[i].enhanced, method, search);
     const std::size_t taken =
         take_surest(found.matches, route.traverses[i], columns, lengths[i], options, result.matches);

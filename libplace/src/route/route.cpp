@@ -12,6 +12,13 @@ const vo::ImageStack* thumbnails_of(const Traverse& traverse) {
   return nullptr;
 }
 
+std::vector<std::size_t> gaps_of(const Traverse& traverse) {
+  std::vector<std::size_t> gaps;
+  for (std::size_t k = 0; k < traverse.keyframes.size(); ++k)
+    if (traverse.keyframes[k].after_gap) gaps.push_back(k);
+  return gaps;
+}
+
 bool has_poses(const Route& route) {
   return std::ranges::any_of(route.traverses, [](const Traverse& traverse) {
     return std::ranges::any_of(traverse.keyframes,

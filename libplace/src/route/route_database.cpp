@@ -54,7 +54,8 @@ CREATE TABLE setting(
 CREATE TABLE keyframe(
   traverse INTEGER NOT NULL REFERENCES traverse, position INTEGER NOT NULL,
   frame INTEGER NOT NULL, time_s REAL NOT NULL, displacement REAL NOT NULL,
-  distance_m REAL, x_m REAL, y_m REAL, heading_rad REAL, PRIMARY KEY(traverse, position)) WITHOUT ROWID;
+  distance_m REAL, x_m REAL, y_m REAL, heading_rad REAL, after_gap INTEGER NOT NULL,
+  PRIMARY KEY(traverse, position)) WITHOUT ROWID;
 CREATE TABLE thumbnail_chunk(
   traverse INTEGER NOT NULL REFERENCES traverse, first INTEGER NOT NULL, checksum INTEGER NOT NULL,
   pixels BLOB NOT NULL, PRIMARY KEY(traverse, first));
@@ -117,7 +118,7 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
     if (value) row.bind(id).bind(setting.name).bind(*value).execute();
   }
 
-  Statement keyframe = database.prepare("INSERT INTO keyframe VALUES(?,?,?,?,?,?,?,?,?)");
+  Statement keyframe = database.prepare("INSERT INTO keyframe VALUES(?,?,?,?,?,?,?,?,?,?)");
   Statement preview = database.prepare("INSERT INTO preview VALUES(?,?,?)");
   for (std::size_t i = 0; i < traverse.keyframes.size(); ++i) {
     const Keyframe& k = traverse.keyframes[i];
@@ -125,7 +126,8 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
     keyframe.bind(id).bind(position).bind(k.frame).bind(k.time_s).bind(k.displacement).bind(k.distance_m);
     keyframe.bind(k.pose ? std::optional(k.pose->x_m) : std::nullopt);
     keyframe.bind(k.pose ? std::optional(k.pose->y_m) : std::nullopt);
-    keyframe.bind(k.pose ? std::optional(k.pose->heading_rad) : std::nullopt).execute();
+    keyframe.bind(k.pose ? std::optional(k.pose->heading_rad) : std::nullopt);
+    keyframe.bind(std::int64_t{k.after_gap ? 1 : 0}).execute();
     if (!k.preview_jpeg.empty()) preview.bind(id).bind(position).bind(std::span(k.preview_jpeg)).execute();
   }
 
@@ -168,9 +170,8 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   traverse.settings = read_settings(settings.bind(id), path);
 
   Statement keyframe = database.prepare(
-      "SELECT frame, time_s, displacement, distance_m, x_m, y_m, heading_rad FROM keyframe WHERE traverse = "
-      "? "
-      "ORDER BY position");
+      "SELECT frame, time_s, displacement, distance_m, x_m, y_m, heading_rad, after_gap FROM keyframe "
+      "WHERE traverse = ? ORDER BY position");
   keyframe.bind(id);
   while (keyframe.step()) {
     Keyframe k;
@@ -181,6 +182,7 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     const std::optional<double> x_m = keyframe.optional_real();
     const std::optional<double> y_m = keyframe.optional_real();
     const std::optional<double> heading_rad = keyframe.optional_real();
+    k.after_gap = keyframe.integer() != 0;
     if (x_m && y_m && heading_rad) k.pose = vo::Pose2{*x_m, *y_m, *heading_rad};
     traverse.keyframes.push_back(std::move(k));
   }

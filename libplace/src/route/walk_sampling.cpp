@@ -1,6 +1,7 @@
 #include "place/route/walk_sampling.hpp"
 
 #include "place/match/descriptor_costs.hpp"
+#include "place/match/walk_gaps.hpp"
 #include "place/route/resampling.hpp"
 
 #include <algorithm>
@@ -171,6 +172,7 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
   };
   if (!walk.previews.empty() && std::ranges::none_of(sampled.descriptors, are_thumbnails))
     traverse.thumbnails = sampled.thumbnails;
+  const std::vector<std::size_t> gaps = gaps_at(sampled.frames, walk.time_s);
   double travelled = 0;
   std::size_t next = 0;
   for (const std::size_t frame : sampled.frames) {
@@ -180,6 +182,7 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
     keyframe.frame = static_cast<std::int64_t>(frame);
     keyframe.time_s = walk.time_s[frame];
     keyframe.displacement = travelled;
+    keyframe.after_gap = std::ranges::binary_search(gaps, traverse.keyframes.size());
     if (survey) keyframe.pose = survey->pose[frame];
     if (survey) keyframe.distance_m = survey->distance_m[frame];
     if (!walk.previews.empty()) keyframe.preview_jpeg = walk.previews[frame];

@@ -81,8 +81,9 @@ CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& trav
 double prior_queries_of(const RouteMatchingOptions& options);
 
 /// What a search of a walk on a traverse goes by: sequences of the length asked for, the walk's own
-/// displacement between its keyframes (for `search_path`, in keyframes of the traverse), and where its clock
-/// jumped for so long that nobody knows how far it went (`vo::parts_walk`). `time_s`: of the walk's frames.
+/// displacement between its keyframes (for `search_path`, in keyframes of the traverse), and where the clock
+/// of either jumped for so long that nobody knows how far it went (`vo::parts_walk`). `time_s`: of the walk's
+/// frames.
 /// Throws `vo::Error` for a length in metres on a traverse without distances.
 SearchOptions search_on_route(const Traverse& traverse, std::span<const double> time_s,
                               const SampledWalk& sampled, const RouteMatchingOptions& options);
@@ -90,7 +91,8 @@ SearchOptions search_on_route(const Traverse& traverse, std::span<const double> 
 /// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> fusion with what
 /// the other traverses say -> search with its certainty (`search_surely`), against each traverse; of a
 /// route's traverses the one with the surest match counts. A walk that is too short for probabilities is
-/// accepted by the score, 0.7 deviations of the enhanced cost.
+/// accepted by the score, 0.7 deviations of the enhanced cost. No sequence crosses a gap of the walk or of a
+/// traverse, except those of OpenSeqSLAM's search, which is the original's to the bit and knows no time.
 ///
 /// Fusion asks where traverses lie on each other, and finds out as it finds the walk. Memory: 4 bytes for
 /// each pair of keyframes, twice, and of all traverses where they are joined. `time_s`: of the walk's frames.

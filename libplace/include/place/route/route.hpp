@@ -3,6 +3,7 @@
 #include "place/describe/descriptor.hpp"
 #include "place/settings.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@ struct Keyframe {
   double displacement = 0;  ///< travelled since the first frame, in the displacement's unit; 0 without motion
   std::optional<double> distance_m;        ///< travelled along the route, where surveyed
   std::optional<vo::Pose2> pose;           ///< where surveyed
+  bool after_gap = false;                  ///< the recording was interrupted before it (`vo::parts_walk`)
   std::vector<std::uint8_t> preview_jpeg;  ///< a small picture for people; empty if none was kept
 };
 
@@ -63,6 +65,9 @@ struct Route {
 
 /// The thumbnails of a traverse's keyframes, wherever they are; null if it has none.
 const vo::ImageStack* thumbnails_of(const Traverse& traverse);
+
+/// The keyframes of a traverse before which its recording was interrupted: no sequence crosses one.
+std::vector<std::size_t> gaps_of(const Traverse& traverse);
 
 /// True if any keyframe has a pose that a query could be put among.
 bool has_poses(const Route& route);

@@ -7,7 +7,7 @@
 namespace place {
 
 /// The layout of the file; files of another layout are refused.
-inline constexpr int kRouteSchemaVersion = 4;
+inline constexpr int kRouteSchemaVersion = 5;
 
 /// What to leave in the file.
 struct RouteReadOptions {

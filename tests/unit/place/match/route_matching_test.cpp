@@ -258,6 +258,50 @@ TEST_F(RouteMatchingTest, NoSequenceCrossesAJumpOfTheClock) {
   EXPECT_FALSE(found.matches[sampled.frames.size() / 2 + 10].partial);
 }
 
+TEST_F(RouteMatchingTest, NoSequenceCrossesAGapOfTheReference) {
+  // The reference: the wall's first half, the camera put away for ten minutes, and some of it once more.
+  const std::vector<double> once_px = places(0, std::vector<double>(600, 0.5));
+  const std::size_t jump = once_px.size();
+  std::vector<double> twice_px = once_px;
+  twice_px.insert(twice_px.end(), once_px.begin() + 120, once_px.begin() + 520);
+  auto twice = known_walk(wall_, twice_px);
+  for (std::size_t f = jump; f < twice.walk.frames(); ++f) twice.walk.time_s[f] += 600;
+  twice.walk.gaps = vo::clock_gaps(twice.walk.time_s);
+  place::Route route;
+  add_traverse(route, "twice", twice);
+  const std::vector<std::size_t> gaps = place::gaps_of(route.traverses[0]);
+  ASSERT_THAT(gaps, SizeIs(1));
+  EXPECT_EQ(route.traverses[0].keyframes[gaps[0]].frame, static_cast<std::int64_t>(jump));
+
+  // The query: the same course, but without a pause, so that a line of it fits one across the gap exactly.
+  std::vector<double> on_px = places(200, std::vector<double>(200, 0.5));
+  const std::size_t seam = on_px.size();
+  on_px.insert(on_px.end(), once_px.begin() + 120, once_px.begin() + 320);
+  const auto query = known_walk(wall_, on_px);
+  const place::SampledWalk sampled = sample_query(query, route);
+  EXPECT_EQ(place::search_on_route(route.traverses[0], query.walk.time_s, sampled, options_).gaps.reference,
+            gaps);
+  const auto at_seam =
+      static_cast<std::size_t>(std::ranges::lower_bound(sampled.frames, seam) - sampled.frames.begin());
+  for (const place::CandidateUse use : {place::CandidateUse::kNever, place::CandidateUse::kAlways}) {
+    options_.candidate_use = use;
+    const auto found = place::match_on_route(route, query.walk.time_s, sampled, options_);
+    // Whatever is found about the seam ends at the gap, as at an end of the walk.
+    for (const std::size_t q : {at_seam - 1, at_seam}) {
+      ASSERT_TRUE(found.matches[q].place);
+      if (static_cast<std::size_t>(std::abs(static_cast<int>(found.matches[q].place->keyframe) -
+                                            static_cast<int>(gaps[0]))) <= 1) {
+        EXPECT_TRUE(found.matches[q].partial);
+      }
+    }
+    place::Route without_gap = route;
+    for (place::Keyframe& keyframe : without_gap.traverses[0].keyframes) keyframe.after_gap = false;
+    const auto across = place::match_on_route(without_gap, query.walk.time_s, sampled, options_);
+    EXPECT_EQ(across.matches[at_seam].place->keyframe, gaps[0]);
+    EXPECT_FALSE(across.matches[at_seam].partial);
+  }
+}
+
 TEST_F(RouteMatchingTest, TraversesThatShareNoPlaceAreSearchedApart) {
   add_traverse(route_, "elsewhere", steady_walk(Wall(kWallPx, 99), 0.5));
   const auto query = steady_walk(wall_, 0.7, 60, 540);

@@ -43,6 +43,7 @@ place::Traverse example_traverse(const std::string& name, std::size_t keyframes,
     keyframe.displacement = 0.1 * static_cast<double>(i);
     if (i % 2 == 0) keyframe.distance_m = -1.0 / 7 + static_cast<double>(i);
     if (i % 3 == 0) keyframe.pose = vo::Pose2{1e-9, -0.0, -3.1};
+    keyframe.after_gap = i % 5 == 3;
     if (i % 4 == 0) keyframe.preview_jpeg = {0, 255, static_cast<std::uint8_t>(i)};
     traverse.keyframes.push_back(keyframe);
   }
@@ -105,6 +106,7 @@ void expect_equal(const place::Traverse& a, const place::Traverse& b) {
     EXPECT_EQ(j.time_s, k.time_s);
     EXPECT_EQ(j.displacement, k.displacement);
     EXPECT_EQ(j.distance_m, k.distance_m);
+    EXPECT_EQ(j.after_gap, k.after_gap);
     EXPECT_EQ(j.preview_jpeg, k.preview_jpeg);
     ASSERT_EQ(j.pose.has_value(), k.pose.has_value());
     if (!j.pose) continue;
@@ -203,11 +205,14 @@ TEST(RouteDatabase, RefusesAnotherProgramsDatabaseAndAnotherSchema) {
   place::write_route(folder / "r.db", example_route());
   const std::string bytes = read_file(folder / "r.db");
   // SQLite's file header: user version at bytes 60-63, application id at 68-71, most significant byte first.
-  std::string newer = bytes;
-  newer[63] = static_cast<char>(place::kRouteSchemaVersion + 1);
-  EXPECT_THROW_WITH(place::read_route(folder.write("newer.db", newer)), vo::Error,
-                    "newer.db: has schema version 5, written by another version of retrace; expected schema "
-                    "version 4; build the route again");
+  for (const int version : {place::kRouteSchemaVersion - 1, place::kRouteSchemaVersion + 1}) {
+    std::string another = bytes;
+    another[63] = static_cast<char>(version);
+    EXPECT_THROW_WITH(place::read_route(folder.write("another.db", another)), vo::Error,
+                      "another.db: has schema version " + std::to_string(version) +
+                          ", written by another version of retrace; expected schema version " +
+                          std::to_string(place::kRouteSchemaVersion) + "; build the route again");
+  }
   std::string other = bytes;
   other[71] = static_cast<char>(other[71] + 1);
   EXPECT_THROW_WITH(place::read_route(folder.write("other.db", other)), vo::Error,

@@ -22,6 +22,15 @@ TEST(Route, KnowsWhetherThereArePoses) {
   EXPECT_TRUE(place::has_poses(route));
 }
 
+TEST(Route, KnowsWhereATraverseWasInterrupted) {
+  place::Traverse traverse;
+  EXPECT_TRUE(place::gaps_of(traverse).empty());
+  traverse.keyframes.resize(4);
+  EXPECT_TRUE(place::gaps_of(traverse).empty());
+  traverse.keyframes[1].after_gap = traverse.keyframes[3].after_gap = true;
+  EXPECT_EQ(place::gaps_of(traverse), (std::vector<std::size_t>{1, 3}));
+}
+
 TEST(Route, FindsThumbnailsWhereverTheyAre) {
   place::Traverse traverse = route_of_two_keyframes().traverses.front();
   EXPECT_EQ(place::thumbnails_of(traverse), nullptr);

@@ -123,8 +123,12 @@ TEST_F(WalkSamplingTest, BeginsAnewAfterALongJumpOfTheClock) {
   const auto paused = sample_query(after(600), route_);
   EXPECT_TRUE(std::ranges::binary_search(paused.frames, jump));
   EXPECT_EQ(paused.displacement[jump], 0);
+  const place::Traverse traverse = place::make_traverse("paused", after(600).walk, paused, std::nullopt);
+  for (const place::Keyframe& keyframe : traverse.keyframes)
+    EXPECT_EQ(keyframe.after_gap, keyframe.frame == static_cast<std::int64_t>(jump)) << keyframe.frame;
   const auto filled = sample_query(after(2), route_);  // the pace goes on
   EXPECT_GT(filled.displacement[jump], 0);
+  EXPECT_THAT(place::gaps_of(place::make_traverse("filled", after(2).walk, filled, std::nullopt)), IsEmpty());
 }
 
 TEST_F(WalkSamplingTest, TheUnitOfAQueryIsInProportionToItsN) {
