@@ -1,6 +1,7 @@
 #include "command.hpp"
 #include "progress_bar.hpp"
 #include "run_directory.hpp"
+#include "survey_files.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -14,7 +15,6 @@
 
 #include <place/place.hpp>
 #include <place/route/route_lock.hpp>
-#include <place/route/survey.hpp>
 #include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
@@ -28,11 +28,7 @@ struct BuildOptions {
   std::vector<std::string> walk;
   std::string output;
   std::string name;
-  std::string truth;
-  std::string trajectory;
-  std::string track;
-  std::string track_name;
-  std::optional<double> trajectory_start_s, track_start_s;
+  SurveyFiles survey;
 };
 
 /// The traverse's name where none is given: the recording's, without folders and ending.
@@ -49,31 +45,6 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
                       "another --name, or --force to replace it");
     }
   }
-}
-
-std::optional<place::Survey> survey_of(const BuildOptions& options, const vo::Walk& walk,
-                                       place::Route& route) {
-  if (!options.truth.empty()) return place::survey_from_truth(options.truth, walk);
-  place::SurveyOptions form = place::survey_options(options.settings);
-  if (!options.trajectory.empty()) {
-    form.start_s = options.trajectory_start_s;
-    return place::survey_from_trajectory(options.trajectory, walk, form);
-  }
-  if (options.track.empty()) return {};
-  form.start_s = options.track_start_s;
-  form.track_name = options.track_name;
-  return place::survey_from_track(options.track, walk, route, form);
-}
-
-/// The settings without those that, as motion is no file's, the survey alone has a use for.
-place::Settings without_survey(const BuildOptions& options, const place::Settings* route) {
-  place::Settings settings = options.settings;
-  const std::optional<std::string> motion =
-      !settings.motion && route != nullptr ? route->motion : settings.motion;
-  if (motion == "file") return settings;
-  if (!options.trajectory.empty()) settings.axes.reset();
-  if (!options.trajectory.empty() || !options.track.empty()) settings.motion_file_gap_s.reset();
-  return settings;
 }
 
 void print(const BuildOptions& options, const place::Route& route, const place::AddedTraverse& added) {
@@ -106,12 +77,13 @@ void build(BuildOptions& options) {
                                 spdlog::info("{}: another build adds to it; waiting", options.output);
                               }});
   const bool exists = std::filesystem::exists(options.output);
-  place::Route route =
-      exists ? place::read_route(options.output) : place::new_route(without_survey(options, nullptr));
+  place::Route route;
+  if (exists) route = place::read_route(options.output);
+  const place::Settings given = settings_beside(options.survey, options.settings, route.settings.motion);
+  if (!exists) route = place::new_route(given);
   check_name_is_free(route, options);
-  const place::Settings* const of_route = exists ? &route.settings : nullptr;
-  const place::Settings settings = place::resolve(without_survey(options, of_route),
-                                                  {.purpose = place::Purpose::kRoute, .route = of_route});
+  const place::Settings settings =
+      place::resolve(given, {.purpose = place::Purpose::kRoute, .route = exists ? &route.settings : nullptr});
 
   vo::Walk walk;
   {
@@ -119,7 +91,7 @@ void build(BuildOptions& options) {
     walk = place::read(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
-  const std::optional<place::Survey> survey = survey_of(options, walk, route);
+  const std::optional<place::Survey> survey = read_survey(options.survey, options.settings, walk, route);
   if (survey) {
     for (const std::string& warning : survey->warnings) spdlog::warn("{}", warning);
   }
@@ -138,30 +110,7 @@ std::function<void()> declare_build(Arguments& arguments) {
   arguments.positional("walk", options->walk, kWalkArgument);
   arguments.option("-o,--output", options->output, "route database to create or add to").required();
   arguments.option("--name", options->name, "name of the traverse [the recording's]");
-  const Argument truth = arguments.option("--truth", options->truth,
-                                          "truth.csv of the walk: position and distance of every frame");
-  Argument trajectory =
-      arguments.option("--trajectory", options->trajectory,
-                       "surveyed poses of the walk, TUM format, seconds since its first frame");
-  Argument track = arguments.option(
-      "--track", options->track,
-      "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg");
-  track.excludes(truth).excludes(trajectory.excludes(truth));
-  arguments
-      .option(
-          "--trajectory-start-s", options->trajectory_start_s,
-          "seconds that the trajectory's clock shows at the first frame [0, or by the video's creation time]")
-      .needs(trajectory);
-  arguments
-      .option(
-          "--track-start-s", options->track_start_s,
-          "seconds from a .gpx file's first point, or of a .csv file's clock, to the first frame [0, or by "
-          "the video's creation time]")
-      .needs(track);
-  arguments
-      .option("--track-name", options->track_name,
-              "of several tracks in a .gpx file the one so called, or its number from 1")
-      .needs(track);
+  declare_survey(arguments, options->survey);
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral});
   arguments.common(options->common);

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "demo_results.hpp"
 #include "demo_runs.hpp"
 #include "run_directory.hpp"
 
@@ -16,7 +17,6 @@ namespace retrace {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
 
 struct DemoOptions {
   place::Settings settings;
@@ -27,42 +27,10 @@ struct DemoOptions {
   bool keep_videos = false;
 };
 
-ordered_json as_json(const DemoRun& run) {
-  const place::Evaluation& e = run.evaluated.evaluation;
-  ordered_json json{{"reference_keyframes", run.references},
-                    {"query_keyframes", e.queries},
-                    {"max_f1", e.best.f1},
-                    {"precision", e.best.precision},
-                    {"recall", e.best.recall},
-                    {"median_error_m", nullptr},
-                    {"p95_error_m", nullptr},
-                    {"report", (run.folder / "report.html").string()}};
-  if (run.every > 0) json["every"] = run.every;
-  if (e.errors) json["median_error_m"] = e.errors->p50;
-  if (e.errors) json["p95_error_m"] = e.errors->p95;
-  return json;
-}
-
-void print_row(const std::string& name, const DemoRun& run) {
-  const place::Evaluation& e = run.evaluated.evaluation;
-  fmt::print("  {:<28}{:>4} x {:<4}{:>8.3f}{:>11.3f}{:>9.3f}", name, e.queries, run.references, e.best.f1,
-             e.best.precision, e.best.recall);
-  if (e.errors) fmt::print("{:>12.2f} m{:>12.2f} m", e.errors->p50, e.errors->p95);
-  fmt::print("\n");
-}
-
 void demo(const DemoOptions& options) {
   const auto began = std::chrono::steady_clock::now();
   vo::set_thread_count(options.settings.threads.value_or(0));
-  simulate::Options by_day;
-  by_day.seed = options.seed;
-  by_day.length_m = options.length_m;
-  by_day.speed = simulate::Speed::kSlowFast;
-  simulate::Options by_night = by_day;
-  by_night.condition = simulate::Condition::kNight;
-  by_night.speed = simulate::Speed::kFastSlow;
-  by_night.gait_seed = by_day.gait_seed + 1;
-  by_night.lateral_m = 0.25;
+  const simulate::Options by_day = demo_day(options.seed, options.length_m), by_night = demo_night(by_day);
   simulate::validate(by_night);
 
   place::Settings by_steps;
@@ -87,29 +55,12 @@ void demo(const DemoOptions& options) {
   }
 
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  if (options.common.json) {
-    const ordered_json json{{"seed", options.seed},
-                            {"length_m", options.length_m},
-                            {"tolerance_m", kDemoTolerance_m},
-                            {"vanilla", as_json(vanilla)},
-                            {"normalised", as_json(normalised)},
-                            {"overview", (folder / "overview.png").string()},
-                            {"seconds", took_s}};
-    fmt::print("{}\n", json.dump(2));
-    return;
-  }
-  fmt::print("{:g} m of a made-up street, by day (slow, then fast) and by night (fast, then slow):\n\n",
-             options.length_m);
-  fmt::print("  {:<28}{:>11}{:>8}{:>11}{:>9}{:>14}{:>14}\n", "", "keyframes", "max-F1", "precision", "recall",
-             "median error", "95 % within");
-  print_row(fmt::format("vanilla, every {}th frame", vanilla.every), vanilla);
-  print_row("speed-normalised by steps", normalised);
-  fmt::print(
-      "\nBoth compare {}s, as the papers do. Right is within {:g} m of the true place. Drawn and found in "
-      "{:.0f} s.\n",
-      kDemoDescriptor, kDemoTolerance_m, took_s);
-  fmt::print("Look at {} and {}.\n", (folder / "overview.png").string(),
-             (normalised.folder / "report.html").string());
+  const DemoResults results{options.seed, options.length_m,        vanilla,
+                            normalised,   folder / "overview.png", took_s};
+  if (options.common.json)
+    fmt::print("{}\n", demo_json(results).dump(2));
+  else
+    print_demo(results);
 }
 
 }  // namespace

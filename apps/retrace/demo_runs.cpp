@@ -50,6 +50,23 @@ cv::Mat view_at(const DrawnWalk& drawn, double distance_m) {
 
 }  // namespace
 
+simulate::Options demo_day(std::uint64_t seed, double length_m) {
+  simulate::Options options;
+  options.seed = seed;
+  options.length_m = length_m;
+  options.speed = simulate::Speed::kSlowFast;
+  return options;
+}
+
+simulate::Options demo_night(const simulate::Options& by_day) {
+  simulate::Options options = by_day;
+  options.condition = simulate::Condition::kNight;
+  options.speed = simulate::Speed::kFastSlow;
+  options.gait_seed = by_day.gait_seed + 1;
+  options.lateral_m = 0.25;
+  return options;
+}
+
 DrawnWalk draw_and_read(const simulate::Options& options, const fs::path& folder,
                         const place::Settings& settings) {
   DrawnWalk drawn{folder, {}};

@@ -35,6 +35,10 @@ struct DemoRun {
   place::RunEvaluation evaluated;
 };
 
+/// The two walks: by day slow, then fast; by night by another walker, a little aside, fast, then slow.
+simulate::Options demo_day(std::uint64_t seed, double length_m);
+simulate::Options demo_night(const simulate::Options& by_day);
+
 /// Draws a walk into a folder and reads it. Throws `vo::Error` if the user stopped it: half a demo is none.
 DrawnWalk draw_and_read(const simulate::Options& options, const std::filesystem::path& folder,
                         const place::Settings& settings);

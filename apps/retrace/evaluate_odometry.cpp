@@ -35,21 +35,6 @@ struct EvaluateOdometryOptions {
   place::OdometryEvaluationOptions evaluation;
 };
 
-void print(std::size_t steps, const std::optional<std::size_t>& true_steps,
-           const place::OdometryEvaluation& evaluation) {
-  fmt::print("steps: {}", steps);
-  if (true_steps) fmt::print(", truly {}", *true_steps);
-  if (true_steps && *true_steps > 0)
-    fmt::print(", error {:.2f} %", place::step_error_pct(steps, *true_steps));
-  fmt::print("\n{:>7} {:>12} {:>16} {:>18}\n", "at m", "measurements", "position m", "heading deg");
-  for (const place::OdometryErrors& errors : evaluation.errors) {
-    if (errors.count == 0) continue;
-    fmt::print("{:>7} {:>12} {:>16} {:>18}\n", errors.at_m, errors.count,
-               fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
-               fmt::format("{:.2f} +- {:.2f}", errors.heading_mean_deg, errors.heading_sd_deg));
-  }
-}
-
 void evaluate_kitti(const EvaluateOdometryOptions& options) {
   const fs::path folder = options.folder;
   const ordered_json metrics = kitti_metrics(folder, options.kitti_poses);
@@ -58,17 +43,6 @@ void evaluate_kitti(const EvaluateOdometryOptions& options) {
     fmt::print("{}\n", metrics.dump(2));
   else
     print_kitti_metrics(metrics);
-}
-
-/// Metres are held against metres only.
-void check_metres(const fs::path& folder) {
-  if (!fs::exists(folder / "frames.csv")) return;
-  const vo::CsvTable frames = vo::CsvTable::read(folder / "frames.csv");
-  if (frames.rows() == 0 || !frames.has("unit")) return;
-  const std::string unit = frames.text("unit").front();
-  if (unit == "m") return;
-  throw vo::Error((folder / "trajectory.tum").string(), fmt::format("is in '{}', no metres", unit),
-                  "a walk whose steps were seen, or that was given --camera-height-m");
 }
 
 void evaluate_odometry(const EvaluateOdometryOptions& options) {
@@ -101,7 +75,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
     fmt::print("{}\n", metrics.dump(2));
     return;
   }
-  print(steps, truth.steps, evaluation);
+  print_odometry_metrics(steps, truth.steps, evaluation);
   fmt::print("see {}\n", (folder / "report.html").string());
 }
 

@@ -1,5 +1,6 @@
 #include "odometry_evaluation_files.hpp"
 
+#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -74,6 +75,31 @@ ordered_json odometry_metrics_json(std::size_t steps, const std::optional<std::s
     json["measurements"][fmt::format("{}", errors.at_m)] = errors.count;
   json["protocol"] = kProtocol;
   return json;
+}
+
+void check_metres(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "frames.csv")) return;
+  const vo::CsvTable frames = vo::CsvTable::read(folder / "frames.csv");
+  if (frames.rows() == 0 || !frames.has("unit")) return;
+  const std::string unit = frames.text("unit").front();
+  if (unit == "m") return;
+  throw vo::Error((folder / "trajectory.tum").string(), fmt::format("is in '{}', no metres", unit),
+                  "a walk whose steps were seen, or that was given --camera-height-m");
+}
+
+void print_odometry_metrics(std::size_t steps, const std::optional<std::size_t>& true_steps,
+                            const place::OdometryEvaluation& evaluation) {
+  fmt::print("steps: {}", steps);
+  if (true_steps) fmt::print(", truly {}", *true_steps);
+  if (true_steps && *true_steps > 0)
+    fmt::print(", error {:.2f} %", place::step_error_pct(steps, *true_steps));
+  fmt::print("\n{:>7} {:>12} {:>16} {:>18}\n", "at m", "measurements", "position m", "heading deg");
+  for (const place::OdometryErrors& errors : evaluation.errors) {
+    if (errors.count == 0) continue;
+    fmt::print("{:>7} {:>12} {:>16} {:>18}\n", errors.at_m, errors.count,
+               fmt::format("{:.2f} +- {:.2f}", errors.euclidean_mean_m, errors.euclidean_sd_m),
+               fmt::format("{:.2f} +- {:.2f}", errors.heading_mean_deg, errors.heading_sd_deg));
+  }
 }
 
 }  // namespace retrace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,5 +30,12 @@ WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& 
 nlohmann::ordered_json odometry_metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
                                              const place::OdometryEvaluation& evaluation,
                                              const place::OdometryEvaluationOptions& options);
+
+/// Throws `vo::Error` unless the trajectory in the folder is in metres: metres are held against metres only.
+void check_metres(const std::filesystem::path& folder);
+
+/// The errors at each distance, on standard output.
+void print_odometry_metrics(std::size_t steps, const std::optional<std::size_t>& true_steps,
+                            const place::OdometryEvaluation& evaluation);
 
 }  // namespace retrace

@@ -1,0 +1,56 @@
+#include "survey_files.hpp"
+
+#include <place/stage_options.hpp>
+
+namespace retrace {
+
+void declare_survey(Arguments& arguments, SurveyFiles& files) {
+  const Argument truth =
+      arguments.option("--truth", files.truth, "truth.csv of the walk: position and distance of every frame");
+  Argument trajectory =
+      arguments.option("--trajectory", files.trajectory,
+                       "surveyed poses of the walk, TUM format, seconds since its first frame");
+  Argument track = arguments.option(
+      "--track", files.track,
+      "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg");
+  track.excludes(truth).excludes(trajectory.excludes(truth));
+  arguments
+      .option(
+          "--trajectory-start-s", files.trajectory_start_s,
+          "seconds that the trajectory's clock shows at the first frame [0, or by the video's creation time]")
+      .needs(trajectory);
+  arguments
+      .option(
+          "--track-start-s", files.track_start_s,
+          "seconds from a .gpx file's first point, or of a .csv file's clock, to the first frame [0, or by "
+          "the video's creation time]")
+      .needs(track);
+  arguments
+      .option("--track-name", files.track_name,
+              "of several tracks in a .gpx file the one so called, or its number from 1")
+      .needs(track);
+}
+
+place::Settings settings_beside(const SurveyFiles& files, place::Settings settings,
+                                const std::optional<std::string>& motion_of_route) {
+  if ((settings.motion ? settings.motion : motion_of_route) == "file") return settings;
+  if (!files.trajectory.empty()) settings.axes.reset();
+  if (!files.trajectory.empty() || !files.track.empty()) settings.motion_file_gap_s.reset();
+  return settings;
+}
+
+std::optional<place::Survey> read_survey(const SurveyFiles& files, const place::Settings& settings,
+                                         const vo::Walk& walk, place::Route& route) {
+  if (!files.truth.empty()) return place::survey_from_truth(files.truth, walk);
+  place::SurveyOptions form = place::survey_options(settings);
+  if (!files.trajectory.empty()) {
+    form.start_s = files.trajectory_start_s;
+    return place::survey_from_trajectory(files.trajectory, walk, form);
+  }
+  if (files.track.empty()) return {};
+  form.start_s = files.track_start_s;
+  form.track_name = files.track_name;
+  return place::survey_from_track(files.track, walk, route, form);
+}
+
+}  // namespace retrace
