@@ -96,6 +96,7 @@ template Argument Arguments::option(const std::string&, double&, const std::stri
 template Argument Arguments::option(const std::string&, std::optional<double>&, const std::string&);
 template Argument Arguments::option(const std::string&, std::optional<std::size_t>&, const std::string&);
 template Argument Arguments::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Argument Arguments::option(const std::string&, std::vector<std::size_t>&, const std::string&);
 
 Argument Arguments::flag(const std::string& name, bool& target, const std::string& description) {
   return Argument(app_.add_flag(name, target, description));

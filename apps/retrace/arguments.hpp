@@ -47,7 +47,8 @@ class Argument {
 /// behind it.
 ///
 /// Targets must live as long as the command; what is in them before is the default. Types: std::string, int,
-/// std::size_t, std::uint64_t, double, std::optional of these, and std::vector<std::string>.
+/// std::size_t, std::uint64_t, double, std::optional of these, and std::vector of std::string or
+/// std::size_t.
 class Arguments {
  public:
   /// `all`: --help shows every setting, not only those that most people use.

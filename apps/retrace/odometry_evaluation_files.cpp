@@ -16,8 +16,11 @@ using nlohmann::ordered_json;
 
 constexpr std::string_view kProtocol =
     "Random segments, at whose start the trajectory is put at the true place and heading; errors at "
-    "distances "
-    "truly travelled from there (PVO 5.2). Heading errors are estimate minus truth, clockwise.";
+    "distances truly travelled from there; mean and standard deviation over all measurements of all walks "
+    "(PVO "
+    "5.2, 5.4). Heading errors are truth minus estimate, clockwise: positive where the estimate drifts to "
+    "the "
+    "left, as in PVO.";
 
 std::vector<place::WayPoint> read_way(const vo::CsvTable& table, const std::string& path,
                                       double scale_m_per_px) {
@@ -31,6 +34,12 @@ std::vector<place::WayPoint> read_way(const vo::CsvTable& table, const std::stri
   }
   if (!moves) throw vo::Error(path, "is no way", "two points or more of different places");
   return way;
+}
+
+std::size_t true_steps(const std::vector<place::StepCount>& walks) {
+  std::size_t steps = 0;
+  for (const place::StepCount& walk : walks) steps += walk.truth;
+  return steps;
 }
 
 }  // namespace
@@ -53,15 +62,40 @@ WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& 
   return truth;
 }
 
-ordered_json odometry_metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
-                                   const place::OdometryEvaluation& evaluation,
+OdometryMeasured pooled(const std::vector<OdometryMeasured>& walks) {
+  OdometryMeasured all{.walks = 0};
+  std::vector<place::OdometryEvaluation> evaluations;
+  for (const OdometryMeasured& walk : walks) {
+    all.walks += walk.walks;
+    all.steps += walk.steps;
+    all.counted.insert(all.counted.end(), walk.counted.begin(), walk.counted.end());
+    evaluations.push_back(walk.evaluation);
+  }
+  all.evaluation = place::pooled(evaluations);
+  return all;
+}
+
+ordered_json odometry_metrics_json(const OdometryMeasured& measured,
                                    const place::OdometryEvaluationOptions& options) {
-  ordered_json json{{"steps_estimated", steps},     {"steps_true", nullptr},
-                    {"step_error_pct", nullptr},    {"distance_m", evaluation.distance_m},
-                    {"segments", options.segments}, {"segment_m", evaluation.segment_m},
+  const place::OdometryEvaluation& evaluation = measured.evaluation;
+  ordered_json json{{"walks", measured.walks},
+                    {"steps_estimated", measured.steps},
+                    {"steps_true", nullptr},
+                    {"step_error_pct", nullptr},
+                    {"distance_m", evaluation.distance_m},
+                    {"segments", options.segments},
+                    {"segment_m", evaluation.segment_m},
                     {"seed", options.seed}};
-  if (true_steps) json["steps_true"] = *true_steps;
-  if (true_steps && *true_steps > 0) json["step_error_pct"] = place::step_error_pct(steps, *true_steps);
+  if (measured.counted.size() == measured.walks) json["steps_true"] = true_steps(measured.counted);
+  if (true_steps(measured.counted) > 0) {
+    const place::StepErrors errors = place::step_errors(measured.counted);
+    json["step_error_pct"] = errors.pct;
+    json["step_error"] = {{"walks", measured.counted.size()},
+                          {"absolute_mean", errors.absolute_mean},
+                          {"absolute_sd", errors.absolute_sd},
+                          {"mean", errors.mean},
+                          {"sd", errors.sd}};
+  }
   const auto add = [&](const char* name, double place::OdometryErrors::*value) {
     for (const place::OdometryErrors& errors : evaluation.errors)
       json[name][fmt::format("{}", errors.at_m)] = errors.count > 0 ? ordered_json(errors.*value) : nullptr;
@@ -87,12 +121,17 @@ void check_metres(const std::filesystem::path& folder) {
                   "a walk whose steps were seen, or that was given --camera-height-m");
 }
 
-void print_odometry_metrics(std::size_t steps, const std::optional<std::size_t>& true_steps,
-                            const place::OdometryEvaluation& evaluation) {
-  fmt::print("steps: {}", steps);
-  if (true_steps) fmt::print(", truly {}", *true_steps);
-  if (true_steps && *true_steps > 0)
-    fmt::print(", error {:.2f} %", place::step_error_pct(steps, *true_steps));
+void print_odometry_metrics(const OdometryMeasured& measured) {
+  const place::OdometryEvaluation& evaluation = measured.evaluation;
+  if (measured.walks > 1) fmt::print("{} walks, ", measured.walks);
+  fmt::print("steps: {}", measured.steps);
+  if (measured.counted.size() == measured.walks) fmt::print(", truly {}", true_steps(measured.counted));
+  if (true_steps(measured.counted) > 0) {
+    const place::StepErrors errors = place::step_errors(measured.counted);
+    fmt::print(", error {:.2f} %", errors.pct);
+    if (measured.counted.size() > 1)
+      fmt::print(", {:.2f} +- {:.2f} steps a walk", errors.absolute_mean, errors.absolute_sd);
+  }
   fmt::print("\n{:>7} {:>12} {:>16} {:>18}\n", "at m", "measurements", "position m", "heading deg");
   for (const place::OdometryErrors& errors : evaluation.errors) {
     if (errors.count == 0) continue;

@@ -26,16 +26,25 @@ struct WalkTruth {
 WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& map_scale_m_per_px,
                           const std::optional<std::size_t>& counted_steps);
 
-/// odometry_metrics.json (PVO 5.2).
-nlohmann::ordered_json odometry_metrics_json(std::size_t steps, const std::optional<std::size_t>& true_steps,
-                                             const place::OdometryEvaluation& evaluation,
+/// What was measured on one walk, or on several taken together.
+struct OdometryMeasured {
+  std::size_t walks = 1;
+  std::size_t steps = 0;                  ///< found, on all of them
+  std::vector<place::StepCount> counted;  ///< of the walks whose true steps are known
+  place::OdometryEvaluation evaluation;   ///< of all
+};
+
+/// All walks taken together (PVO 5.4).
+OdometryMeasured pooled(const std::vector<OdometryMeasured>& walks);
+
+/// odometry_metrics.json (PVO 5.2, 5.4).
+nlohmann::ordered_json odometry_metrics_json(const OdometryMeasured& measured,
                                              const place::OdometryEvaluationOptions& options);
 
 /// Throws `vo::Error` unless the trajectory in the folder is in metres: metres are held against metres only.
 void check_metres(const std::filesystem::path& folder);
 
 /// The errors at each distance, on standard output.
-void print_odometry_metrics(std::size_t steps, const std::optional<std::size_t>& true_steps,
-                            const place::OdometryEvaluation& evaluation);
+void print_odometry_metrics(const OdometryMeasured& measured);
 
 }  // namespace retrace

@@ -323,6 +323,31 @@ class CliTest(unittest.TestCase):
         self.assertIsNone(metrics["euclidean_error_m"]["75"])
         self.assertEqual(metrics["measurements"]["75"], 0)
 
+    def test_pools_the_odometry_of_several_walks(self):
+        # One walk of 200 m a tenth too long, 4 steps too many of 100; one of 60 m as true as can be, 2 too few of 60, which
+        # is too short for 75 and 100 m.
+        walks, truths = [], []
+        for name, metres, scale, found, steps in (("long", 200, 1.1, 104, 100), ("short", 60, 1, 58, 60)):
+            truths.append(self.folder / f"{name}.csv")
+            truths[-1].write_text("frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n" +
+                                  "".join(f"{i},{i},0,{i},0,{i},{steps if i == metres else 0}\n" for i in range(metres + 1)))
+            walks.append(write_odometry(self.folder / name, [(i, 0, scale * i, 0) for i in range(metres + 1)], steps=found))
+        shown = check("evaluate-odometry", *walks, "--truth", *truths, "-o", self.folder / "all")
+        self.assertIn("2 walks, steps: 162, truly 160, error 3.75 %, 3.00 +- 1.41 steps a walk", shown)
+        metrics = read_json(self.folder / "all" / "odometry_metrics.json")
+        self.assertEqual((metrics["walks"], metrics["steps_estimated"], metrics["steps_true"]), (2, 162, 160))
+        self.assertEqual(metrics["measurements"]["50"], 50)
+        self.assertEqual(metrics["measurements"]["100"], 25)
+        # 25 errors of 5 m and 25 of none: mean 2.5, sample deviation 2.5 * sqrt(50 / 49).
+        self.assertAlmostEqual(metrics["euclidean_error_m"]["50"], 2.5, places=4)
+        self.assertAlmostEqual(metrics["euclidean_error_sd_m"]["50"], 2.5 * (50 / 49) ** 0.5, places=4)
+        self.assertAlmostEqual(metrics["euclidean_error_m"]["100"], 10, places=4)
+        self.assertEqual(metrics["step_error"]["mean"], 1)
+        self.assertEqual(read_json(walks[1] / "odometry_metrics.json")["measurements"]["100"], 0)
+        self.refused("evaluate-odometry", *walks, "--truth", truths[0], says="--truth: names 1 files for 2 walks")
+        self.refused("evaluate-odometry", *walks, "--truth", *truths, "--true-steps", "3", says="has 1 numbers for 2 walks")
+        self.refused("evaluate-odometry", walks[0], "--truth", truths[0], "-o", self.folder, says="--output: is for several walks")
+
     def test_other_seeds_measure_other_segments(self):
         truth = self.folder / "truth.csv"
         truth.write_text("frame,time_s,x_m,y_m,heading_deg,distance_m\n" + "".join(f"{i},{i},0,{i},0,{i}\n" for i in range(201)))

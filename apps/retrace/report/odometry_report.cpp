@@ -47,7 +47,8 @@ void put_errors(Page& page, const OdometryView& walk) {
   page.chart("", position_error_chart(walk),
              "Random segments, at whose start the trajectory is put at the true place and heading [PVO 5.2, "
              "Fig. 7].");
-  page.chart("", heading_error_chart(walk), "Estimate minus truth.");
+  page.chart("", heading_error_chart(walk),
+             "Positive where the trajectory drifts to the left, as in PVO 5.4.");
   std::vector<std::vector<std::string>> rows;
   for (const place::OdometryErrors& e : walk.truth->evaluation.errors) {
     if (e.count == 0) continue;

@@ -134,7 +134,7 @@ std::optional<Chart> position_error_chart(const OdometryView& walk) {
 
 std::optional<Chart> heading_error_chart(const OdometryView& walk) {
   return error_chart(walk,
-                     {.title = "heading error against distance", .y_title = "heading error, deg clockwise"},
+                     {.title = "heading error against distance", .y_title = "heading error, deg to the left"},
                      &place::OdometryErrors::heading_mean_deg, &place::OdometryErrors::heading_sd_deg);
 }
 

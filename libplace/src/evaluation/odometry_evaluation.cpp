@@ -53,6 +53,19 @@ Moments moments(const std::vector<double>& values) {
   return m;
 }
 
+/// Sums the measurements up.
+void sum_up(OdometryErrors& errors) {
+  errors.count = errors.euclidean_m.size();
+  const Moments e = moments(errors.euclidean_m), h = moments(errors.heading_deg);
+  errors.euclidean_mean_m = e.mean;
+  errors.euclidean_sd_m = e.sd;
+  errors.heading_mean_deg = h.mean;
+  errors.heading_sd_deg = h.sd;
+  std::vector<double> sizes_deg;
+  for (const double error : errors.heading_deg) sizes_deg.push_back(std::abs(error));
+  errors.heading_abs_mean_deg = moments(sizes_deg).mean;
+}
+
 void check(std::span<const PosePair> pairs, const OdometryEvaluationOptions& options) {
   const auto no_less = [](double a, double b) { return !(a < b); };
   if (std::ranges::adjacent_find(pairs, no_less, &PosePair::distance_m) != pairs.end())
@@ -134,32 +147,51 @@ OdometryEvaluation evaluate_odometry(std::span<const PosePair> pairs,
   }
   for (const double at_m : options.at_m) {
     OdometryErrors errors{.at_m = at_m};
-    std::vector<double> euclidean, heading, size;
     for (const PosePair& start : starts) {
       if (at_m > result.segment_m) break;
       const PosePair there = pair_at(pairs, start.distance_m + at_m);
       const vo::Pose2 estimate = reset(there.estimate, start);
-      euclidean.push_back(std::hypot(estimate.x_m - there.truth.x_m, estimate.y_m - there.truth.y_m));
-      heading.push_back(vo::wrap_angle_rad(estimate.heading_rad - there.truth.heading_rad) * 180 /
-                        std::numbers::pi);
-      size.push_back(std::abs(heading.back()));
+      errors.euclidean_m.push_back(
+          std::hypot(estimate.x_m - there.truth.x_m, estimate.y_m - there.truth.y_m));
+      errors.heading_deg.push_back(vo::wrap_angle_rad(there.truth.heading_rad - estimate.heading_rad) * 180 /
+                                   std::numbers::pi);
     }
-    errors.count = euclidean.size();
-    const Moments e = moments(euclidean), h = moments(heading);
-    errors.euclidean_mean_m = e.mean;
-    errors.euclidean_sd_m = e.sd;
-    errors.heading_mean_deg = h.mean;
-    errors.heading_sd_deg = h.sd;
-    errors.heading_abs_mean_deg = moments(size).mean;
+    sum_up(errors);
     result.errors.push_back(errors);
   }
   return result;
 }
 
-double step_error_pct(std::size_t estimated, std::size_t truth) {
-  if (truth == 0) throw std::invalid_argument("step_error_pct: true steps expected");
-  return 100 * std::abs(static_cast<double>(estimated) - static_cast<double>(truth)) /
-         static_cast<double>(truth);
+OdometryEvaluation pooled(std::span<const OdometryEvaluation> walks) {
+  if (walks.empty()) throw std::invalid_argument("pooled: a walk expected");
+  OdometryEvaluation all = walks.front();
+  for (const OdometryEvaluation& walk : walks.subspan(1)) {
+    if (!std::ranges::equal(walk.errors, all.errors, {}, &OdometryErrors::at_m, &OdometryErrors::at_m))
+      throw std::invalid_argument("pooled: walks measured at the same distances expected");
+    all.distance_m += walk.distance_m;
+    all.segment_m = std::max(all.segment_m, walk.segment_m);
+    for (std::size_t i = 0; i < all.errors.size(); ++i) {
+      const OdometryErrors& more = walk.errors[i];
+      OdometryErrors& errors = all.errors[i];
+      errors.euclidean_m.insert(errors.euclidean_m.end(), more.euclidean_m.begin(), more.euclidean_m.end());
+      errors.heading_deg.insert(errors.heading_deg.end(), more.heading_deg.begin(), more.heading_deg.end());
+    }
+  }
+  for (OdometryErrors& errors : all.errors) sum_up(errors);
+  return all;
+}
+
+StepErrors step_errors(std::span<const StepCount> walks) {
+  std::vector<double> errors, sizes, truths;
+  for (const StepCount& walk : walks) {
+    truths.push_back(static_cast<double>(walk.truth));
+    errors.push_back(static_cast<double>(walk.estimated) - truths.back());
+    sizes.push_back(std::abs(errors.back()));
+  }
+  const double true_mean = moments(truths).mean;
+  if (!(true_mean > 0)) throw std::invalid_argument("step_errors: true steps expected");
+  const Moments error = moments(errors), size = moments(sizes);
+  return {error.mean, error.sd, size.mean, size.sd, 100 * size.mean / true_mean};
 }
 
 }  // namespace place

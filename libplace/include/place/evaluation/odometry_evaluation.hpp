@@ -48,8 +48,10 @@ struct OdometryErrors {
   double at_m = 0;
   std::size_t count = 0;  ///< segments that reach so far; without any, the rest is 0
   double euclidean_mean_m = 0, euclidean_sd_m = 0;
-  double heading_mean_deg = 0, heading_sd_deg = 0;  ///< estimate minus truth, clockwise: negative drifts left
+  /// Truth minus estimate, clockwise: positive where the estimate drifts to the left, as in PVO 5.4.
+  double heading_mean_deg = 0, heading_sd_deg = 0;
   double heading_abs_mean_deg = 0;
+  std::vector<double> euclidean_m, heading_deg;  ///< each measurement, `count` of them
 };
 
 struct OdometryEvaluation {
@@ -73,8 +75,26 @@ struct OdometryEvaluation {
 OdometryEvaluation evaluate_odometry(std::span<const PosePair> pairs,
                                      const OdometryEvaluationOptions& options = {});
 
-/// The error of a number of steps: percent of the true number, 0 or more (PVO 5.4's mean absolute error).
-/// Throws `std::invalid_argument` if the true number is 0.
-double step_error_pct(std::size_t estimated, std::size_t truth);
+/// The measurements of several walks taken together (PVO 5.4: mean and standard deviation over all
+/// measurements of all videos of a path). A walk that is too short for a distance has none there. The
+/// distance is that of all walks, the segment the longest of theirs. Throws `std::invalid_argument` for no
+/// walks, or walks measured at other distances. O(measurements).
+OdometryEvaluation pooled(std::span<const OdometryEvaluation> walks);
+
+/// Steps found on a walk and steps made.
+struct StepCount {
+  std::size_t estimated = 0;
+  std::size_t truth = 0;
+};
+
+/// How wrong the numbers of steps of several walks are (PVO 5.4). sd is that of the sample, 0 for one walk.
+struct StepErrors {
+  double mean = 0, sd = 0;                    ///< found minus true, steps a walk: positive where too many
+  double absolute_mean = 0, absolute_sd = 0;  ///< of the same without its sign
+  double pct = 0;                             ///< the mean absolute error, in percent of the mean true number
+};
+
+/// Throws `std::invalid_argument` for no walks, or walks without a true step among them all. O(walks).
+StepErrors step_errors(std::span<const StepCount> walks);
 
 }  // namespace place

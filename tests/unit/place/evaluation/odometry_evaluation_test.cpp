@@ -107,7 +107,7 @@ TEST(EvaluateOdometry, DriftToTheLeft) {
   const double turn = -0.2 * kPi / 180;
   const auto result = place::evaluate_odometry(place::pair_by_time(bow(251, 0), metres(251), bow(251, turn)));
   for (const place::OdometryErrors& errors : result.errors) {
-    EXPECT_NEAR(errors.heading_mean_deg, -0.2 * errors.at_m, 1e-9);  // rounding
+    EXPECT_NEAR(errors.heading_mean_deg, 0.2 * errors.at_m, 1e-9);  // PVO 5.4: positive; rounding
     EXPECT_NEAR(errors.heading_abs_mean_deg, 0.2 * errors.at_m, 1e-9);
     EXPECT_NEAR(errors.heading_sd_deg, 0, 1e-6);
     // The bow is made of legs of 1 m, and a start within one turns it by up to half of 0.2 degrees.
@@ -193,11 +193,53 @@ TEST(EvaluateOdometry, RefusesWhatMakesNoSense) {
   EXPECT_THROW(place::evaluate_odometry(pairs), std::invalid_argument);
 }
 
-TEST(StepError, IsInPercentOfTheTruth) {
-  EXPECT_DOUBLE_EQ(place::step_error_pct(95, 100), 5);
-  EXPECT_DOUBLE_EQ(place::step_error_pct(21, 20), 5);
-  EXPECT_EQ(place::step_error_pct(20, 20), 0);
-  EXPECT_THROW(place::step_error_pct(1, 0), std::invalid_argument);
+TEST(Pooled, TakesTheMeasurementsOfAllWalksTogether) {
+  // By hand: errors of 1 and 3 m on one walk, 5 m on the other, which is too short for 10 m.
+  place::OdometryEvaluation one{.distance_m = 30, .segment_m = 10}, other{.distance_m = 8, .segment_m = 5};
+  one.errors = {{.at_m = 5, .euclidean_m = {1, 3}, .heading_deg = {-2, 4}},
+                {.at_m = 10, .euclidean_m = {2, 2}, .heading_deg = {1, 1}}};
+  other.errors = {{.at_m = 5, .euclidean_m = {5}, .heading_deg = {4}}, {.at_m = 10}};
+  const place::OdometryEvaluation all = place::pooled(std::vector{one, other});
+  EXPECT_EQ(all.distance_m, 38);
+  EXPECT_EQ(all.segment_m, 10);
+  EXPECT_EQ(all.errors[0].count, 3U);
+  EXPECT_DOUBLE_EQ(all.errors[0].euclidean_mean_m, 3);
+  EXPECT_DOUBLE_EQ(all.errors[0].euclidean_sd_m, 2);  // sqrt((4 + 0 + 4) / 2)
+  EXPECT_DOUBLE_EQ(all.errors[0].heading_mean_deg, 2);
+  EXPECT_DOUBLE_EQ(all.errors[0].heading_sd_deg, std::sqrt(12));  // (16 + 4 + 4) / 2
+  EXPECT_DOUBLE_EQ(all.errors[0].heading_abs_mean_deg, 10.0 / 3);
+  EXPECT_EQ(all.errors[1].count, 2U);
+  EXPECT_DOUBLE_EQ(all.errors[1].euclidean_mean_m, 2);
+}
+
+TEST(Pooled, OfOneWalkIsThatWalk) {
+  const auto walk = place::evaluate_odometry(place::pair_by_time(bow(151, 0), metres(151), bow(151, 0.003)));
+  const auto all = place::pooled(std::span(&walk, 1));
+  for (std::size_t i = 0; i < walk.errors.size(); ++i) {
+    EXPECT_EQ(all.errors[i].count, walk.errors[i].count);
+    EXPECT_EQ(all.errors[i].euclidean_sd_m, walk.errors[i].euclidean_sd_m);
+    EXPECT_EQ(all.errors[i].heading_mean_deg, walk.errors[i].heading_mean_deg);
+  }
+  EXPECT_THROW(place::pooled({}), std::invalid_argument);
+  auto elsewhere = walk;
+  elsewhere.errors.pop_back();
+  EXPECT_THROW(place::pooled(std::vector{walk, elsewhere}), std::invalid_argument);
+}
+
+TEST(StepErrors, OfSeveralWalks) {
+  // By hand: 4 too many of 100, 2 too few of 60, none of 40.
+  const auto errors = place::step_errors(std::vector<place::StepCount>{{104, 100}, {58, 60}, {40, 40}});
+  EXPECT_DOUBLE_EQ(errors.absolute_mean, 2);
+  EXPECT_DOUBLE_EQ(errors.absolute_sd, 2);  // (4 + 0 + 4) / 2 = 2 * 2
+  EXPECT_DOUBLE_EQ(errors.mean, 2.0 / 3);
+  EXPECT_DOUBLE_EQ(errors.sd, std::sqrt(28.0 / 3));  // squares 20 less 3 * 4/9, over 2
+  EXPECT_DOUBLE_EQ(errors.pct, 3);                   // 6 of 200
+  const auto one = place::step_errors(std::vector<place::StepCount>{{21, 20}});
+  EXPECT_DOUBLE_EQ(one.pct, 5);
+  EXPECT_EQ(one.sd, 0);
+  EXPECT_EQ(place::step_errors(std::vector<place::StepCount>{{20, 20}}).pct, 0);
+  EXPECT_THROW(place::step_errors(std::vector<place::StepCount>{{1, 0}}), std::invalid_argument);
+  EXPECT_THROW(place::step_errors({}), std::invalid_argument);
 }
 
 }  // namespace
