@@ -255,7 +255,7 @@ constexpr std::array kTable{
             .least = 1,
             .most = 10,
             .when = "motion=sad",
-            .description = "frame separations compared for each frame's motion; 1 is SSS Eq. 3"},
+            .description = "spans of 0.04 s over which frames are compared for motion; 1 is SSS Eq. 3"},
     Setting{.name = "max-speed",
             .field = &Settings::max_speed,
             .group = kMotion,

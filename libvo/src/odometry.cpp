@@ -3,6 +3,7 @@
 #include "vo/base/error.hpp"
 #include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
+#include "vo/gait/playback.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -252,12 +253,15 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
   if (walk.tracked.size() != walk.frames()) {
     throw std::invalid_argument("pedestrian_motion: a walk read with track_features expected");
   }
+  const std::vector<double> clock_s = without_long_gaps(walk.time_s);
   if (const double rate_hz = frame_rate_hz(walk.time_s); rate_hz <= 2 * options.signal.lowpass.cutoff_hz) {
+    std::string problem = fmt::format("has {:.3g} frames/s, too few to see steps", rate_hz);
+    const auto cadence_hz = impossible_cadence_hz(walk.tracked, clock_s, options.signal, options.steps);
+    if (cadence_hz) problem += ", and " + impossible_cadence_text(*cadence_hz);
     throw Error(
-        walk.source, fmt::format("has {:.3g} frames/s, too few to see steps", rate_hz),
+        walk.source, problem,
         fmt::format("more than {:.3g}, twice the fastest steps", 2 * options.signal.lowpass.cutoff_hz));
   }
-  const std::vector<double> clock_s = without_long_gaps(walk.time_s);
   const EvenMotion even = even_motion(walk.tracked, clock_s);
   const GaitSignal signal = gait_signal(even.motion, even.time_s, options.signal);  // PVO 4.3, 4.5
   StepReading reading = read_steps(signal, options.steps);                          // 4.4

@@ -3,10 +3,13 @@
 #include "vo/base/clock.hpp"
 #include "vo/base/error.hpp"
 #include "vo/gait/lowpass.hpp"
+#include "vo/gait/playback.hpp"
 #include "vo/motion/height_by_steps.hpp"
 
 #include <optional>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace vo {
 namespace {
@@ -116,14 +119,16 @@ WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& op
   return motion;
 }
 
-}  // namespace
-
-void keep_for(MotionSource source, WalkOptions& options) {
-  options.track_features = source == MotionSource::kSteps || source == MotionSource::kHybrid;
-  options.visual_odometry = source == MotionSource::kVisualOdometry || source == MotionSource::kHybrid;
+/// What a user should know of a walk whose clock is not the walker's.
+std::vector<std::string> cadence_warnings(const Walk& walk, const PedestrianMotionOptions& options) {
+  if (walk.tracked.size() != walk.frames()) return {};
+  const std::optional<double> cadence_hz =
+      impossible_cadence_hz(walk.tracked, without_long_gaps(walk.time_s), options.signal, options.steps);
+  if (!cadence_hz) return {};
+  return {fmt::format("{}: {}", walk.source, impossible_cadence_text(*cadence_hz))};
 }
 
-WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
+WalkMotion motion_by(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
   const bool can_show_steps = walk.tracked.size() == walk.frames() &&
                               frame_rate_hz(walk.time_s) > 2 * options.pedestrian.signal.lowpass.cutoff_hz;
   switch (source) {
@@ -143,6 +148,19 @@ WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOp
   throw std::invalid_argument("walk_motion: a source expected");
 }
 
+}  // namespace
+
+void keep_for(MotionSource source, WalkOptions& options) {
+  options.track_features = source == MotionSource::kSteps || source == MotionSource::kHybrid;
+  options.visual_odometry = source == MotionSource::kVisualOdometry || source == MotionSource::kHybrid;
+}
+
+WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
+  WalkMotion motion = motion_by(walk, source, options);
+  motion.warnings = cadence_warnings(walk, options.pedestrian);
+  return motion;
+}
+
 WalkMotion motion_with_steps(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
   std::vector<std::string> warnings;
   if (source == MotionSource::kHybrid) {
@@ -154,7 +172,7 @@ WalkMotion motion_with_steps(const Walk& walk, MotionSource source, const WalkMo
     }
   }
   WalkMotion motion = walk_motion(walk, MotionSource::kSteps, options);
-  motion.warnings = std::move(warnings);
+  motion.warnings.insert(motion.warnings.begin(), warnings.begin(), warnings.end());
   return motion;
 }
 

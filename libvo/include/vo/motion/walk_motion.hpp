@@ -38,6 +38,7 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// are none: there, `pedestrian` has no steps. A camera that never leaves its first view, and sees no steps,
 /// stands: its displacements are 0. `kFile` is the same without steps, with the track of a file.
 /// `kVisualOdometry` is the track as it is: nothing where it is lost, each segment in a unit of its own.
+/// Where points were followed, slow motion and time lapses are warned of (`impossible_cadence_hz`).
 ///
 /// Throws `std::invalid_argument` for `kNone`, or a walk that was not read with what the source needs;
 /// `vo::Error` naming a walk that shows no motion to learn from, for `kSad`. A walk without steps has, by
