@@ -365,8 +365,8 @@ constexpr std::array kTable{
             .standard = "epipolar",
             .choices = "epipolar|regions|naive",
             .description =
-                "rotation of the essential matrix, or the x shift by regions or of all points [PVO "
-                "4.5]",
+                "rotation of the essential matrix, the x shift by regions, or that of all points with the "
+                "trunk's swing left in [PVO 4.5]",
             .at_reading = true},
     Setting{.name = "lowpass-cutoff-hz",
             .field = &Settings::lowpass_cutoff_hz,
@@ -380,19 +380,19 @@ constexpr std::array kTable{
             .field = &Settings::step_signal,
             .group = kOdometry,
             .standard = "auto",
-            .choices = "auto|bounce|orientation|shift",
+            .choices = "auto|bounce|orientation|shift|pvo",
             .description =
-                "what steps are read from: the picture's bounce, orientation alone [PVO 4.4], or x "
-                "shift; auto: the bounce, unless another is like gait for longer"},
+                "what steps are read from: the picture's bounce, orientation alone, or x shift; "
+                "auto: the bounce, unless another is like gait for longer; pvo: the orientation by "
+                "the published rules alone, and the trajectory as well [PVO 4.4, 4.6]"},
     Setting{.name = "min-step-deg",
             .field = &Settings::min_step_deg,
             .group = kOdometry,
             .least = 0,
             .most = kInfinity,
-            .above_least = true,
-            .when = "step-signal=orientation",
-            .description = "degrees of orientation change a frame, the static threshold; learned from the "
-                           "walk if not given [PVO 4.4]"},
+            .when = "step-signal=orientation|pvo",
+            .description = "degrees of orientation change a frame, the static threshold; a quarter of the "
+                           "walk's average step if not given [PVO 4.4, 5.3]"},
 
     Setting{.name = "compat",
             .field = &Settings::compat,

@@ -167,6 +167,9 @@ void put_odometry(const Settings& s, StageOptions& options) {
              {{"epipolar", vo::HeadingMethod::kEpipolar},
               {"regions", vo::HeadingMethod::kRegions},
               {"naive", vo::HeadingMethod::kNaive}});
+  // PVO trusts the swing to cancel out over two steps.
+  if (tracker.motion.heading.method == vo::HeadingMethod::kNaive)
+    options.sampling.motion.pedestrian.signal.heading_cutoff_hz = 0;
 
   vo::PedestrianMotionOptions& pedestrian = options.sampling.motion.pedestrian;
   put(s.step_length, pedestrian.step_length.length_m);
@@ -178,7 +181,9 @@ void put_odometry(const Settings& s, StageOptions& options) {
              {{"auto", std::nullopt},
               {"bounce", vo::StepSignal::kBounce},
               {"orientation", vo::StepSignal::kOrientation},
-              {"shift", vo::StepSignal::kShift}});
+              {"shift", vo::StepSignal::kShift},
+              {"pvo", vo::StepSignal::kPublished}});
+  pedestrian.dead_reckoning.as_published = pedestrian.steps.signal == vo::StepSignal::kPublished;
   put(s.min_step_deg, pedestrian.steps.detection.delta_min);
 }
 

@@ -96,7 +96,7 @@ std::vector<double> unwrapped_deg(const vo::Trajectory& trajectory) {
 std::optional<Chart> gait_chart(const OdometryView& walk) {
   if (walk.frames.time_s.empty()) return {};
   const std::string read_from = walk.summary.step_signal;
-  const bool by_orientation = read_from == "orientation";
+  const bool by_orientation = read_from.starts_with("orientation");
   Chart chart{.title = "gait signal with thresholds and steps",
               .x_title = "time, s",
               .y_title = by_orientation ? "orientation change, deg a frame" : read_from + ", px a frame",

@@ -63,7 +63,9 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
   }
   std::vector<double> displacement_m(time_s.size(), 0);
   if (steps.empty()) return displacement_m;
-  std::vector<double> done_s = even_times_s(steps, options.pause_s);
+  std::vector<double> done_s;
+  for (const Step& step : steps) done_s.push_back(step.time_s);
+  if (!options.as_published) done_s = even_times_s(steps, options.pause_s);
   std::vector<double> duration_s = durations_s(done_s, options.pause_s);
   std::vector<double> way_m(lengths_m.begin(), lengths_m.end());
   way_m.push_back(partial.after * way_m.back());
@@ -112,10 +114,10 @@ DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> l
   for (const Step& step : steps) {
     const double from_x_m = x_m, from_y_m = y_m;
     while (frame <= step.frame)
-      go_on(displacement_m[frame], heading_rad[options.heading_over_step ? frame : step.frame]);
+      go_on(displacement_m[frame], heading_rad[options.as_published ? step.frame : frame]);
     const bool moved = x_m != from_x_m || y_m != from_y_m;  // not within a gap of the clock
-    const double heading = options.heading_over_step && moved ? std::atan2(x_m - from_x_m, y_m - from_y_m)
-                                                              : wrap_angle_rad(heading_rad[step.frame]);
+    const double heading = !options.as_published && moved ? std::atan2(x_m - from_x_m, y_m - from_y_m)
+                                                          : wrap_angle_rad(heading_rad[step.frame]);
     walk.at_step.push_back({x_m, y_m, heading});
   }
   while (frame < time_s.size()) go_on(displacement_m[frame], heading_rad[frame]);

@@ -26,24 +26,6 @@ void check(std::span<const double> signal, std::span<const double> time_s, const
     throw std::invalid_argument("detect_steps: pairs and pause_s above 0, max_bridged_s >= 0 expected");
 }
 
-/// Extrema that obey the sign rule, where a plateau is one extremum at its first frame.
-std::vector<Step> signed_extrema(std::span<const double> signal, std::span<const double> time_s) {
-  std::vector<Step> extrema;
-  double rise = 0;  // of the last change of value
-  for (std::size_t i = 1, first = 0; i < signal.size(); ++i) {
-    const double change = signal[i] - signal[i - 1];
-    if (change == 0) continue;
-    const double value = signal[first];
-    if (rise > 0 && change < 0 && value > 0)
-      extrema.push_back({first, time_s[first], Leg::kLeft, value, false});
-    if (rise < 0 && change > 0 && value < 0)
-      extrema.push_back({first, time_s[first], Leg::kRight, value, false});
-    rise = change;
-    first = i;
-  }
-  return extrema;
-}
-
 /// ratio * median(differences of the last pairs), over steps not parted by a pause; without a pair, what one
 /// of average steps would give, less for a first step.
 double dynamic_threshold(const std::vector<Step>& steps, double now_s, double average,
@@ -105,6 +87,25 @@ std::size_t bridge(std::vector<Step>& steps, std::span<const double> signal, std
 }
 
 }  // namespace
+
+std::vector<Step> signed_extrema(std::span<const double> signal, std::span<const double> time_s) {
+  if (time_s.size() != signal.size())
+    throw std::invalid_argument("signed_extrema: one time per frame expected");
+  std::vector<Step> extrema;
+  double rise = 0;  // of the last change of value
+  for (std::size_t i = 1, first = 0; i < signal.size(); ++i) {
+    const double change = signal[i] - signal[i - 1];
+    if (change == 0) continue;
+    const double value = signal[first];
+    if (rise > 0 && change < 0 && value > 0)
+      extrema.push_back({first, time_s[first], Leg::kLeft, value, false});
+    if (rise < 0 && change > 0 && value < 0)
+      extrema.push_back({first, time_s[first], Leg::kRight, value, false});
+    rise = change;
+    first = i;
+  }
+  return extrema;
+}
 
 double steps_made(const StepDetection& detection) {
   if (detection.steps.empty()) return 0;

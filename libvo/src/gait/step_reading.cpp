@@ -1,5 +1,6 @@
 #include "vo/gait/step_reading.hpp"
 
+#include "vo/gait/pvo_steps.hpp"
 #include "vo/gait/walker.hpp"
 
 #include <algorithm>
@@ -52,10 +53,17 @@ StepDetection read_shift(const GaitSignal& signal, const StepReadingOptions& opt
   return none;
 }
 
+StepDetection read_as_published(const GaitSignal& signal, const StepReadingOptions& options) {
+  return detect_steps_as_published(signal.orientation.values, signal.time_s,
+                                   {.delta_min = options.detection.delta_min});
+}
+
 constexpr std::array kReaders{
     StepReader{StepSignal::kOrientation, "orientation", &GaitSignal::orientation, read_orientation},
     StepReader{StepSignal::kBounce, "bounce", &GaitSignal::bounce, read_bounce},
-    StepReader{StepSignal::kShift, "x shift", &GaitSignal::shift, read_shift}};
+    StepReader{StepSignal::kShift, "x shift", &GaitSignal::shift, read_shift},
+    StepReader{StepSignal::kPublished, "orientation by PVO", &GaitSignal::orientation, read_as_published,
+               true}};
 
 /// The bounce unless another signal is like gait in more of the walk; of those, PVO's if it shows any step.
 StepSignal best_signal(const StepDetection& by_orientation, const StepDetection& by_shift,
@@ -79,10 +87,11 @@ const StepReader& reader_of(StepSignal signal) {
 
 StepReading read_steps(const GaitSignal& signal, const StepReadingOptions& options) {
   std::optional<StepSignal> asked = options.signal;
-  if (options.detection.delta_min) asked = StepSignal::kOrientation;
+  if (!asked && options.detection.delta_min) asked = StepSignal::kOrientation;
   if (asked) return {*asked, reader_of(*asked).read(signal, options)};
   std::array<StepDetection, kReaders.size()> found;
-  for (std::size_t i = 0; i < found.size(); ++i) found[i] = kReaders[i].read(signal, options);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (!kReaders[i].on_request) found[i] = kReaders[i].read(signal, options);
   const auto of = [&](StepSignal which) -> StepDetection& { return found[static_cast<std::size_t>(which)]; };
   const StepSignal best =
       best_signal(of(StepSignal::kOrientation), of(StepSignal::kShift), of(StepSignal::kBounce));

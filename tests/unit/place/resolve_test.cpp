@@ -341,6 +341,19 @@ TEST(StageOptions, DefaultsAreThoseOfTheStages) {
   EXPECT_FALSE(resolved.matching.openseqslam);
 }
 
+TEST(StageOptions, OfThePublishedPedestrianMethod) {
+  Settings settings;
+  settings.motion = "steps";
+  settings.step_signal = "pvo";
+  settings.min_step_deg = 0;  // Fig. 3a
+  const vo::PedestrianMotionOptions pvo =
+      place::stage_options(place::resolve(settings, {})).sampling.motion.pedestrian;
+  EXPECT_EQ(pvo.steps.signal, vo::StepSignal::kPublished);
+  EXPECT_EQ(pvo.steps.detection.delta_min, 0);
+  EXPECT_TRUE(pvo.dead_reckoning.as_published);
+  EXPECT_GT(pvo.signal.heading_cutoff_hz, 0);
+}
+
 TEST(StageOptions, AreWhatSettingsSay) {
   Settings settings;
   settings.motion = "steps";
@@ -364,6 +377,8 @@ TEST(StageOptions, AreWhatSettingsSay) {
   EXPECT_EQ(options.sampling.motion.pedestrian.step_length.model, vo::StepLengthModel::kFixed);
   EXPECT_EQ(options.sampling.motion.pedestrian.steps.signal, vo::StepSignal::kOrientation);
   EXPECT_EQ(options.sampling.motion.pedestrian.steps.detection.delta_min, 0.4);
+  EXPECT_EQ(options.sampling.motion.pedestrian.signal.heading_cutoff_hz, 0);  // the swing is left in
+  EXPECT_FALSE(options.sampling.motion.pedestrian.dead_reckoning.as_published);
   EXPECT_EQ(options.sampling.motion.visual.patch.shape, vo::PatchShape::kWindow);
   ASSERT_TRUE(options.matching.openseqslam);
   EXPECT_FALSE(options.matching.openseqslam->quirks.constant_patch_is_zero);

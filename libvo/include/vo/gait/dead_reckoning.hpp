@@ -10,8 +10,10 @@ namespace vo {
 
 /// Settings of `dead_reckon` and `step_displacement_m`.
 struct DeadReckoningOptions {
-  bool heading_over_step = true;  ///< false: the heading at the step's frame alone [PVO 4.6]
-  double pause_s = 1.5;           ///< longest step, seconds; one that comes later was preceded by a stand
+  /// At the frame that a step is found at, all of it is made, in the direction of the heading at that frame
+  /// [PVO 4.6].
+  bool as_published = false;
+  double pause_s = 1.5;  ///< longest step, seconds; one that comes later was preceded by a stand
 };
 
 /// A walk in the plane, metres from where it began.
@@ -25,7 +27,7 @@ struct DeadReckoning {
 ///
 /// The extrema that steps are found at come earlier on one side than on the other, as no trunk rolls evenly:
 /// intervals of 0.36 s and 0.70 s by turns are usual for steps of 0.53 s. So the times of left and right
-/// steps are moved, by a constant each, until both take equally long in the median.
+/// steps are moved, by a constant each, until both take equally long in the median; but not `as_published`.
 ///
 /// A step after a gap longer than `pause_s`, like the first, takes only its usual time before it is done: as
 /// long as the step that follows, or the median of all, or half a second if there is no other. The walker
@@ -43,9 +45,9 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
 /// x_i = x_(i-1) + length_i * sin(heading_i), y_i = y_(i-1) + length_i * cos(heading_i).
 ///
 /// In PVO heading_i is that of the frame at which step i is found. There the trunk is turned furthest to one
-/// side; and on a corner one step's frames look in many directions. So, by default, a step goes where the
-/// walker looks while he takes it: length_i times the mean of (sin, cos) over its frames, weighted by
-/// `step_displacement_m`, and heading_i is the direction of that. Between steps, the pose at a frame moves
+/// side; and on a corner one step's frames look in many directions. So, unless `as_published`, a step goes
+/// where the walker looks while he takes it: length_i times the mean of (sin, cos) over its frames, weighted
+/// by `step_displacement_m`, and heading_i is the direction of that. Between steps, the pose at a frame moves
 /// with that displacement; at a step's frame it is that step's.
 ///
 /// `heading_rad`: one per frame, clockwise from +y; the rest as `step_displacement_m`. O(n).

@@ -52,6 +52,11 @@ struct StepDetection {
 /// shares made in it.
 double steps_made(const StepDetection& detection);
 
+/// The extrema of a signal that obey PVO's sign rule (4.4): peaks above 0, of the left leg, and valleys below
+/// 0, of the right; a plateau is one extremum, at its first frame. One time per frame, else
+/// `std::invalid_argument`. O(n).
+std::vector<Step> signed_extrema(std::span<const double> signal, std::span<const double> time_s);
+
 /// Finds the steps in the orientation signal (PVO 4.4, Fig. 2).
 ///
 /// A peak above 0 is a step with the left leg, a valley below 0 one with the right; other extrema are none. A

@@ -17,6 +17,7 @@ enum class StepSignal {
   kBounce,       ///< the picture moves up and down with each step
   kShift,  ///< it swings from side to side: where nothing else is like gait, as with cameras that hold their
            ///< horizon and height steady; legs are then a guess
+  kPublished,  ///< the orientation, by PVO's rules alone
 };
 
 /// Settings of `read_steps`.
@@ -32,12 +33,13 @@ struct StepReadingOptions {
 /// One way to read the steps of a walk. All are given the same and may be put in place of each other.
 struct StepReader {
   StepSignal signal;           ///< that it reads
-  std::string_view name;       ///< "orientation", "bounce", "x shift"
+  std::string_view name;       ///< "orientation", "bounce", "x shift", "orientation by PVO"
   Signal GaitSignal::*values;  ///< that signal
   StepDetection (*read)(const GaitSignal& signal, const StepReadingOptions& options);
+  bool on_request = false;  ///< only if asked for by name
 };
 
-/// The readers there are, one for each signal, in the order of `StepSignal`.
+/// The readers there are, in the order of `StepSignal`.
 ///
 /// - The orientation's is PVO's (`detect_steps`), with steps from the shift where points are few
 ///   (`fill_steps`), unless `options.signal` asks for the orientation by name.
@@ -45,7 +47,9 @@ struct StepReader {
 /// - The shift's is `detect_steps`, completed by the way (`complete_steps`); where most of its steps were not
 ///   seen but filled in, there are none.
 ///
-/// Of all, only the steps of a walker count: the camera gets on (`gets_on`), bounces as one does
+/// - That of `kPublished` is `detect_steps_as_published`, with `options.detection.delta_min` if it is given.
+///
+/// Of all but the last, only the steps of a walker count: the camera gets on (`gets_on`), bounces as one does
 /// (`bounces_as_walker`), swings by no less than noise can (`least_gait`), and the cadence is one of people
 /// (`walkers_steps`).
 std::span<const StepReader> step_readers();
@@ -60,7 +64,8 @@ struct StepReading {
 };
 
 /// Reads the steps of a walk (PVO 4.4) by the reader of the signal asked for, or the one that shows them
-/// best. `signal`: at even times. O(n) and what `stride_periodicity` takes.
+/// best. A static threshold that is given is one of the orientation. `signal`: at even times. O(n) and what
+/// `stride_periodicity` takes.
 StepReading read_steps(const GaitSignal& signal, const StepReadingOptions& options = {});
 
 }  // namespace vo

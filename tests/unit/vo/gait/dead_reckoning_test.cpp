@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
-constexpr vo::DeadReckoningOptions kPaper{.heading_over_step = false};
+constexpr vo::DeadReckoningOptions kPaper{.as_published = true};
 
 /// Frames at 8 Hz, whose times have no rounding in them.
 std::vector<double> times(std::size_t frames) {
@@ -123,6 +123,20 @@ TEST(DeadReckon, FollowsThePaperByHand) {
   EXPECT_NEAR(walk.at_frame[6].pose.y_m, 1, 1e-12);
 }
 
+TEST(DeadReckon, AsPublishedEveryStepIsWholeAtItsFrame) {
+  // Left steps come early and right ones late, by which ours are moved; PVO's are not.
+  auto steps = steps_at({4, 10, 12, 18, 20, 26});
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].leg = i % 2 == 0 ? vo::Leg::kLeft : vo::Leg::kRight;
+  const std::vector<double> lengths(steps.size(), 0.5), heading(30, 0.0);
+  const auto paper = vo::dead_reckon(steps, lengths, heading, times(30), {}, kPaper);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_DOUBLE_EQ(paper.at_step[i].y_m, 0.5 * static_cast<double>(i + 1));
+    EXPECT_EQ(paper.at_frame[steps[i].frame].pose.y_m, paper.at_step[i].y_m);
+  }
+  const auto ours = vo::dead_reckon(steps, lengths, heading, times(30));
+  EXPECT_GT(std::abs(ours.at_step[1].y_m - 1), 0.1);
+}
+
 TEST(DeadReckon, StraightAheadBothWaysAreOne) {
   const std::vector<double> heading(40, 1.1);
   const auto steps = steps_at({5, 9, 14, 33, 38});
@@ -156,9 +170,9 @@ TEST(DeadReckon, FramesAndStepsMeet) {
   std::vector<std::size_t> frames;
   for (std::size_t frame = 3; frame < 280; frame += 3 + rng.index(12)) frames.push_back(frame);
   const auto steps = steps_at(frames);
-  for (const bool over_step : {false, true}) {
+  for (const bool as_published : {false, true}) {
     const auto walk = vo::dead_reckon(steps, std::vector<double>(steps.size(), 0.7), heading, times(300), {},
-                                      {.heading_over_step = over_step, .pause_s = 1.5});
+                                      {.as_published = as_published, .pause_s = 1.5});
     ASSERT_EQ(walk.at_frame.size(), 300U);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       EXPECT_EQ(walk.at_frame[steps[i].frame].pose.x_m, walk.at_step[i].x_m);
