@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -38,9 +41,13 @@ void sweep(const SweepOptions& options) {
   bool finished = false;
   {
     ProgressBar bar;
-    const auto reader = [&bar](const std::string& source) {
-      return [&bar, &source](const vo::WalkOptions& walk) {
-        return vo::read_walk(source, walk, bar.callback());
+    std::set<std::string> said;  // a walk is read once for each descriptor
+    const auto reader = [&](const std::vector<std::string>& sources) {
+      return [&](const vo::WalkOptions& walk) {
+        vo::Walk read = vo::read_walk(sources, walk, bar.callback());
+        for (const std::string& warning : read.warnings)
+          if (said.insert(warning).second) spdlog::warn("{}", warning);
+        return read;
       };
     };
     finished =
@@ -66,8 +73,12 @@ void sweep(const SweepOptions& options) {
 
 std::function<void()> declare_sweep(Arguments& arguments) {
   auto options = std::make_shared<SweepOptions>();
-  arguments.positional("query", options->query, "walk to be found: video file or folder of images");
-  arguments.option("--reference", options->reference, "walk to be found on").required();
+  arguments.positional(
+      "query", options->query,
+      "walk to be found: a video file or a folder of images; several files, in order, are one walk");
+  arguments
+      .option("--reference", options->reference, "walk to be found on; several files, in order, are one walk")
+      .required();
   arguments.option("-o,--output", options->output, "folder for the results; a sweep that was stopped goes on")
       .required();
   declare_truth(arguments, options->truth);

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <vo/base/error.hpp>
@@ -21,11 +22,16 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+/// The files of a walk.
+std::string shown(const std::vector<std::string>& walk) {
+  return fmt::format("{}", fmt::join(walk, ", "));
+}
+
 /// What a sweep is of; another one does not go into the same folder.
 std::string description_of(const SweepOptions& options, const std::vector<place::SweepAxis>& axes) {
   std::string text =
-      fmt::format("# Sweep of {} on {}\n# truth: {} {} {}, tolerance {}\n# varied:", options.query,
-                  options.reference, options.truth.pairs, options.truth.query_truth,
+      fmt::format("# Sweep of {} on {}\n# truth: {} {} {}, tolerance {}\n# varied:", shown(options.query),
+                  shown(options.reference), options.truth.pairs, options.truth.query_truth,
                   options.truth.reference_truth, tolerance_text(options.truth.tolerance));
   for (const place::SweepAxis& axis : axes) text += " " + axis.setting;
   place::Settings settings = options.settings;
@@ -82,10 +88,11 @@ void write_sweep_csv(const SweepOptions& options, const std::vector<place::Sweep
 void write_sweep_report(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
                         const place::SweepResults& results) {
   const fs::path folder = options.output;
-  vo::write_file(folder / "report.html",
-                 sweep_report(axes, results, fmt::format("{} on {}", options.query, options.reference),
-                              {{"Cells", std::to_string(results.size())},
-                               {"Right is within", tolerance_text(options.truth.tolerance)}}));
+  vo::write_file(
+      folder / "report.html",
+      sweep_report(axes, results, fmt::format("{} on {}", shown(options.query), shown(options.reference)),
+                   {{"Cells", std::to_string(results.size())},
+                    {"Right is within", tolerance_text(options.truth.tolerance)}}));
   const std::vector<std::uint8_t> png = heat_picture(heat_tables(axes, results));
   vo::write_file(folder / "heat_map.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }

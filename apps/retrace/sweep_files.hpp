@@ -14,8 +14,8 @@ struct SweepOptions {
   place::Settings settings;
   CommonOptions common;
   TruthOptions truth;
-  std::string query;
-  std::string reference;
+  std::vector<std::string> query;      ///< files that are one walk
+  std::vector<std::string> reference;  ///< the same
   std::string output;
   std::vector<std::string> motions{"sad", "none"};
   std::vector<std::string> lengths{"5", "10", "20", "40"};

@@ -128,6 +128,11 @@ class RecordingsTest(unittest.TestCase):
         self.assertEqual(len(rows(self.folder / "odometry" / "frames.csv")), FRAMES)
         check("describe", *parts, "-o", self.folder / "parts.npy", *VANILLA)
         self.assertEqual(len(rows(self.folder / "parts.npy.csv")), FRAMES / 10)
+        (self.folder / "pairs.csv").write_text(f"query_frame,reference_frame\n0,0\n{FRAMES - 1},{FRAMES - 1}\n")
+        check("sweep", *parts, "--reference", *parts, "--pairs", self.folder / "pairs.csv", "--tolerance-frames", 2,
+              "--motion", "none", "--every", 10, "--sequence-length", 5, "--search-range-rad", 0.1, "-o", self.folder / "sweep")
+        cell = rows(self.folder / "sweep/sweep.csv")[0]
+        self.assertEqual((int(cell["query_keyframes"]), int(cell["reference_keyframes"]), float(cell["max_f1"])), (FRAMES / 10, FRAMES / 10, 1))
         self.refused("build", parts[0], "camera:0", says="cannot be one of several")
 
     # ---- surveys ----
