@@ -13,7 +13,7 @@
 namespace vo {
 namespace {
 
-/// The time that a step takes, and the cadence about it.
+/// The time that a step takes, and the cadence around it.
 struct Stepping {
   double begin_s = 0;
   double end_s = 0;
@@ -24,7 +24,7 @@ std::vector<Stepping> stepping(std::span<const Step> steps, const PartialSteps& 
   std::vector<Stepping> all;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::optional<double> hz = local_cadence_hz(steps, i, pause_s);
-    if (!hz) continue;  // a single step is none of a gait
+    if (!hz) continue;  // a single step is not gait
     const double end_s = steps[i].time_s;
     const bool first = i == 0 || end_s - steps[i - 1].time_s > pause_s;
     all.push_back({first ? end_s - 1 / *hz : steps[i - 1].time_s, end_s, *hz});
@@ -35,8 +35,8 @@ std::vector<Stepping> stepping(std::span<const Step> steps, const PartialSteps& 
 
 /// Frames [begin, end) of a second.
 struct Seen {
-  double reliable = 0;      ///< share of them
-  double growth_per_s = 0;  ///< mean of those reliable
+  double reliable = 0;      ///< share of the frames
+  double growth_per_s = 0;  ///< mean over the reliable frames
 };
 
 Seen seen_in(const GaitSignal& signal, std::size_t begin, std::size_t end) {
@@ -88,7 +88,7 @@ std::vector<ActivitySecond> detect_activity(const GaitSignal& signal, std::span<
   const std::size_t frames = time_s.size();
   const std::vector<Stepping> gait = stepping(steps, partial, options.pause_s);
   const auto quarter = static_cast<std::size_t>(std::lround(signal.rate_hz / 4));
-  std::size_t next = 0;  // of `gait`, not yet over
+  std::size_t next = 0;  // the first of `gait` not yet over
   for (std::size_t begin = 0, end = 0; begin < frames; begin = end) {
     ActivitySecond second{.time_s = time_s.front() + static_cast<double>(seconds.size())};
     while (end < frames && time_s[end] < second.time_s + 1) ++end;

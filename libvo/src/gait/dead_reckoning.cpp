@@ -10,9 +10,8 @@
 namespace vo {
 namespace {
 
-/// When each step is done, as if left and right took equally long: half of what an interval that ends with a
-/// right step is longer than one that ends with a left (medians) is taken from the one and given to the
-/// other.
+/// When each step ends, as if left and right took equally long: half the difference between the median
+/// intervals that end with a right and with a left step is moved from one to the other.
 std::vector<double> even_times_s(std::span<const Step> steps, double pause_s) {
   std::vector<double> to_left_s, to_right_s, time_s;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -28,7 +27,7 @@ std::vector<double> even_times_s(std::span<const Step> steps, double pause_s) {
   return time_s;
 }
 
-/// How long each step takes: since the one before it, or as the usual one after a pause.
+/// How long each step takes: the time since the one before it, or the usual time after a pause.
 std::vector<double> durations_s(std::span<const double> done_s, double pause_s) {
   std::vector<double> between_s, usual_s;
   for (std::size_t i = 1; i < done_s.size(); ++i) between_s.push_back(done_s[i] - done_s[i - 1]);
@@ -74,8 +73,8 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
   way_m.front() *= partial.first;
   duration_s.front() *= partial.first;
 
-  double whole_m = 0, before_m = 0;  // of the steps done; up to the frame before
-  double before_s = time_s.front();  // when the step before was done
+  double whole_m = 0, before_m = 0;  // of the completed steps; up to the frame before
+  double before_s = time_s.front();  // when the step before ended
   std::size_t step = 0;
   for (std::size_t frame = 1; frame < time_s.size(); ++frame) {
     double here_m = whole_m;

@@ -10,7 +10,7 @@
 namespace vo {
 namespace {
 
-/// The motion of one frame as what it would be over `frame_s`, and when it was made.
+/// The motion of one frame scaled to `frame_s`, and the time it belongs to.
 struct Measured {
   double time_s = 0;
   FrameMotion motion;
@@ -95,7 +95,7 @@ EvenMotion even_motion(std::span<const FrameMotion> motion, std::span<const doub
   std::size_t after = 0;
   for (std::size_t k = 0; k < count; ++k) {
     even.time_s.push_back(time_s.front() + static_cast<double>(k) * frame_s);
-    // Times come rounded to milliseconds, and those of an even frame rate are to be met exactly.
+    // Times are rounded to milliseconds; those of an even frame rate must be met exactly.
     const double at_s = even.time_s.back(), near_s = std::min(0.001, frame_s / 20);
     while (after + 1 < all.size() && all[after].time_s < at_s - near_s) ++after;
     const Measured &b = all[after], &a = all[after > 0 ? after - 1 : 0];

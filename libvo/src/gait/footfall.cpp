@@ -9,15 +9,15 @@
 namespace vo {
 namespace {
 
-/// The bounce, and what is usual of it about each frame.
+/// The bounce, and its usual size around each frame.
 struct Bounce {
   std::span<const double> px;
-  std::vector<Periodicity> windows;  ///< step_s: half of a bounce, that is of a step
-  std::vector<double> amplitude_px;  ///< largest of the windows of gait about each frame; 0 where none is
+  std::vector<Periodicity> windows;  ///< step_s: half a bounce, i.e. half a step
+  std::vector<double> amplitude_px;  ///< largest of the windows of gait around each frame; 0 without any
 };
 
-/// Unlike the median of the windows that cover a frame, the largest within two windows is not less beside a
-/// stand.
+/// Unlike the median of the windows that cover a frame, the largest within two windows does not drop next to
+/// a pause.
 std::vector<double> largest_amplitude(const std::vector<Periodicity>& windows, std::size_t frames) {
   std::vector<double> largest(frames, 0);
   std::vector<bool> covered(frames, false);
@@ -37,7 +37,8 @@ std::vector<double> largest_amplitude(const std::vector<Periodicity>& windows, s
   return largest;
 }
 
-/// Valleys so deep, as a share of what is usual about them; of those within half a step, the deepest.
+/// Valleys at least this deep, as a share of the usual depth around them; of those within half a step, the
+/// deepest.
 std::vector<std::size_t> valleys(const Bounce& bounce, std::span<const double> time_s,
                                  const std::vector<bool>& reliable, double depth) {
   std::vector<std::size_t> found;
@@ -53,10 +54,10 @@ std::vector<std::size_t> valleys(const Bounce& bounce, std::span<const double> t
   return found;
 }
 
-/// Left and right by turns; of both ways to begin, the one that agrees with more of the legs seen.
+/// Left and right alternate, beginning with the leg that agrees with more of the legs seen.
 void name_legs(std::vector<Step>& steps, std::span<const Step> legs) {
   constexpr double kSame_s = 0.35;
-  int votes = 0;  // for the first being left
+  int votes = 0;  // in favour of the first being left
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     // The camera rolls fastest before the foot lands.
@@ -110,7 +111,7 @@ StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<cons
     return -bounce_px[i] >= options.sure_depth * bounce.amplitude_px[i];
   };
   std::erase_if(falls, [&](std::size_t i) { return !sure(i) && !way.walking(i); });
-  // Beside a stand, what swings out there is no step; its way is left to the gap.
+  // Next to a pause, a swing that dies away is not a step; its distance goes to the gap.
   const auto swings_out = [&](std::size_t i, std::size_t from, std::size_t stand) {
     const auto [a, b] = std::minmax(i, from);
     const auto [c, d] = std::minmax(i, stand);

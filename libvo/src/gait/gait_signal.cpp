@@ -15,7 +15,7 @@ namespace vo {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kSlowestBounce_hz = 1;  // one a step, where a stride takes two
+constexpr double kSlowestBounce_hz = 1;  // one a step, two in a stride
 
 double mean(std::span<const double> values) {
   double sum = 0;
@@ -32,7 +32,7 @@ double mean_angle_rad(std::span<const double> angles_rad) {
   return std::atan2(sine, cosine);
 }
 
-/// Where the walker goes, as the frames say that tell it.
+/// The direction of travel, from the frames that show it.
 double travel_rad(std::span<const FrameMotion> motion) {
   std::vector<double> told;
   for (const FrameMotion& frame : motion) {

@@ -68,12 +68,12 @@ struct Epipolar {
   Matrix5 information;  ///< of both, by the points alone
 };
 
-/// Gauss-Newton from a turn and travel along the optical axis. `travel_sd`: standard deviation of t about
-/// that, to the side. A camera that turns right moves points by a rotation about y to the left.
+/// Gauss-Newton, starting from a turn and travel along the optical axis. `travel_sd`: standard deviation of t
+/// to the side of that axis. A camera that turns right moves points by a rotation about y to the left.
 Epipolar solve_epipolar(const Rays& rays, double start_turn_rad, double travel_sd, double noise) {
   constexpr int kMaxIterations = 10;
   constexpr double kConverged = 1e-7;
-  // Far wider than what the points say, unless these say nothing.
+  // Far wider than what the points show, unless they show nothing.
   constexpr double kRotationSd_rad = 0.2, kTiltSd = 0.3;
   Vector5 prior;
   prior << Eigen::Vector3d::Constant(1 / (kRotationSd_rad * kRotationSd_rad)), 1 / (travel_sd * travel_sd),
@@ -120,7 +120,7 @@ Turn epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
   const Epipolar ahead = solve_epipolar(rays, start_turn_rad, kAhead, noise);
   Turn turn{.turn_rad = -ahead.rotation.y(), .turn_per_travel = 0, .travel_rad = {}};
 
-  // What the others make of a unit of travel to the side: their part of the information, solved for it.
+  // How the others change with a unit of travel to the side: their part of the information, solved for it.
   Eigen::Matrix4d others;
   Eigen::Vector4d coupling;
   constexpr std::array<Eigen::Index, 4> kOthers{0, 1, 2, 4};
@@ -130,11 +130,11 @@ Turn epipolar_turn(const Rays& rays, double start_turn_rad, double noise) {
     for (std::size_t j = 0; j < kOthers.size(); ++j)
       others(row, static_cast<Eigen::Index>(j)) = ahead.information(kOthers[i], kOthers[j]);
   }
-  others.diagonal().array() += 1;  // nothing, beside what a few points say
+  others.diagonal().array() += 1;  // negligible next to what a few points show
   turn.turn_per_travel = others.ldlt().solve(coupling)[kTurn];
 
-  // Travel to the side moves points by so many of their standard deviations on the average (root mean
-  // square); where the walker stands, noise looks like a few.
+  // Root mean square motion of the points by travel to the side, in their standard deviations; where the
+  // walker is still, noise looks like a few.
   constexpr double kParallax = 5;
   const Epipolar free = solve_epipolar(rays, start_turn_rad, kAnywhere, noise);
   const auto points = static_cast<double>(rays.from.size());

@@ -61,7 +61,7 @@ Lowpass::Lowpass(double rate_hz, const LowpassOptions& options) {
 
 double Lowpass::push(double value) {
   if (!started_) {
-    // Where `value` at the input has become `value` at the output, as the gain at rest is 1.
+    // The state in which a constant `value` comes out as `value`, as the gain at rest is 1.
     for (Section& section : sections_) {
       section.state[1] = (section.b[2] - section.a[1]) * value;
       section.state[0] = (section.b[1] - section.a[0]) * value + section.state[1];

@@ -21,8 +21,8 @@ double correlation(std::span<const double> x, std::size_t lag) {
   return power > 0 ? std::inner_product(early.begin(), early.end(), late.begin(), 0.0) / power : 0;
 }
 
-/// A stretch of the signal, cut off at twice the upper quartile of its size: a sinusoid is left as it is, but
-/// a few wild values do not outweigh the rest.
+/// A stretch of the signal, clipped at twice the upper quartile of its absolute values: a sinusoid is
+/// unchanged, but a few wild values do not outweigh the rest.
 std::vector<double> without_outliers(std::span<const double> signal) {
   std::vector<double> size(signal.size());
   std::ranges::transform(signal, size.begin(), [](double value) { return std::abs(value); });
@@ -46,7 +46,7 @@ Periodicity periodicity_of(std::span<const double> signal, double rate_hz,
       window.size() / 2, static_cast<std::size_t>(std::ceil(2 * rate_hz / options.min_step_hz - 1e-6)));
   if (longest < shortest) return result;
 
-  // Half a stride of an odd number of frames lies between two lags.
+  // Half a stride with an odd number of frames lies between two lags.
   std::vector<double> r(longest + 1);
   for (std::size_t lag = shortest / 2; lag <= longest; ++lag) r[lag] = correlation(window, lag);
   std::vector<double> strength;

@@ -14,10 +14,10 @@ std::optional<PictureMotion> picture_motion(std::span<const TrackedPoint> points
                                             int height_px) {
   constexpr int kIterations = 8;
   constexpr double kTolerance = 1.5;          // of the median distance
-  constexpr double kLeastDistance_px = 0.05;  // as exact as points are found
+  constexpr double kLeastDistance_px = 0.05;  // the precision of the points
   if (points.size() < 2) return std::nullopt;
   const double middle_x = (width_px - 1) / 2.0, middle_y = (height_px - 1) / 2.0;
-  const double unit_px = width_px / 4.0;  // growth and roll in this keep the equations well scaled
+  const double unit_px = width_px / 4.0;  // growth and roll in this unit keep the equations well scaled
 
   Eigen::Vector4d motion = Eigen::Vector4d::Zero();  // right, down, growth, roll
   std::vector<double> distance(points.size(), 0);

@@ -12,7 +12,7 @@
 namespace vo {
 namespace {
 
-/// ratio * median(differences of the last steps); 0 where there are no two.
+/// ratio * median(differences of the last steps); 0 with fewer than two.
 double dynamic_threshold(const std::vector<Step>& steps, const PublishedStepOptions& options) {
   std::vector<double> differences;
   for (std::size_t i = steps.size(); i > 1 && differences.size() + 1 < options.last_steps; --i)
@@ -20,7 +20,7 @@ double dynamic_threshold(const std::vector<Step>& steps, const PublishedStepOpti
   return differences.empty() ? 0 : options.delta_dyn_ratio * median(std::move(differences));
 }
 
-/// Steps alternate: of two with one leg the larger is kept.
+/// Steps alternate: of two with the same leg the larger is kept.
 void add_step(std::vector<Step>& steps, const Step& step) {
   if (steps.empty() || steps.back().leg != step.leg)
     steps.push_back(step);

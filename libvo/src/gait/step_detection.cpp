@@ -26,8 +26,8 @@ void check(std::span<const double> signal, std::span<const double> time_s, const
     throw std::invalid_argument("detect_steps: pairs and pause_s above 0, max_bridged_s >= 0 expected");
 }
 
-/// ratio * median(differences of the last pairs), over steps not parted by a pause; without a pair, what one
-/// of average steps would give, less for a first step.
+/// ratio * median(differences of the last pairs), over steps without a pause between them; without a pair,
+/// that of a pair of average steps, less for a first step.
 double dynamic_threshold(const std::vector<Step>& steps, double now_s, double average,
                          const StepDetectionOptions& options) {
   std::vector<double> differences;
@@ -41,8 +41,8 @@ double dynamic_threshold(const std::vector<Step>& steps, double now_s, double av
   return options.delta_dyn_ratio * median(std::move(differences));
 }
 
-/// Adds a step, unless it is the last one seen again: on its side within one and a half steps, or within half
-/// a step of it. Then the larger of the two stays.
+/// Adds a step, unless it is the last one seen again: on the same side within one and a half steps, or on
+/// either within half a step. Then the larger of the two stays.
 void add_step(std::vector<Step>& steps, const Step& step, double step_s) {
   while (!steps.empty()) {
     const Step& last = steps.back();
@@ -53,7 +53,7 @@ void add_step(std::vector<Step>& steps, const Step& step, double step_s) {
   steps.push_back(step);
 }
 
-/// Fills gaps between two steps by cadence. Returns how many were put in.
+/// Fills gaps between two steps by cadence. Returns the number of steps added.
 std::size_t bridge(std::vector<Step>& steps, std::span<const double> signal, std::span<const double> time_s,
                    const std::vector<bool>& reliable, const std::vector<Periodicity>& windows,
                    double delta_min, const StepDetectionOptions& options) {

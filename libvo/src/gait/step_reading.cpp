@@ -24,7 +24,7 @@ StepDetection read_orientation(const GaitSignal& signal, const StepReadingOption
   if (!asked_for)
     steps = fill_steps(steps, detect(signal.shift, signal, options.detection), signal.matches, signal.time_s,
                        options.fusion);
-  return walkers_steps(std::move(steps), gets_on(signal));
+  return walkers_steps(std::move(steps), camera_travels(signal));
 }
 
 StepDetection read_bounce(const GaitSignal& signal, const StepReadingOptions& options) {
@@ -34,9 +34,9 @@ StepDetection read_bounce(const GaitSignal& signal, const StepReadingOptions& op
   const StepDetection legs = detect(signal.orientation, signal, options.detection);
   StepDetection steps = detect_footfalls(signal.bounce.values, signal.growth_per_s, signal.time_s,
                                          signal.reliable, legs.steps, footfalls);
-  std::vector<bool> walked = gets_on(signal);
+  std::vector<bool> walked = camera_travels(signal);
   const std::vector<bool> walker =
-      bounces_as_walker(signal, bounce_windows(signal.bounce.values, signal.time_s, footfalls.periodicity));
+      bounces_like_walker(signal, bounce_windows(signal.bounce.values, signal.time_s, footfalls.periodicity));
   for (std::size_t i = 0; i < walked.size(); ++i) walked[i] = walked[i] && walker[i];
   return walkers_steps(std::move(steps), walked);
 }
@@ -47,7 +47,7 @@ StepDetection read_shift(const GaitSignal& signal, const StepReadingOptions& opt
   for (const Step& step : steps.steps) frames.push_back(step.frame);
   const StepWay way(signal.growth_per_s, signal.time_s, frames, options.footfalls.way);
   steps = walkers_steps(complete_steps(std::move(steps), way, signal.shift.values, signal.time_s),
-                        gets_on(signal));
+                        camera_travels(signal));
   if (2 * steps.bridged <= steps.steps.size()) return steps;
   StepDetection none{.delta_min = steps.delta_min, .delta_dyn = std::move(steps.delta_dyn)};
   return none;
@@ -65,7 +65,7 @@ constexpr std::array kReaders{
     StepReader{StepSignal::kPublished, "orientation by PVO", &GaitSignal::orientation, read_as_published,
                true}};
 
-/// The bounce unless another signal is like gait in more of the walk; of those, PVO's if it shows any step.
+/// The bounce unless another signal resembles gait in more of the walk; of those, PVO's if it shows any step.
 StepSignal best_signal(const StepDetection& by_orientation, const StepDetection& by_shift,
                        const StepDetection& by_bounce) {
   constexpr double kAsMuch = 0.9;  // windows at the two ends of a walk differ by chance

@@ -22,7 +22,7 @@ struct Interval {
   double growth = 0;  ///< mean of its frames
 };
 
-/// The usual step about a time: medians of those nearest to it. For times that increase from call to call.
+/// The usual step at a time: medians of those nearest to it. For times that increase from call to call.
 class UsualStep {
  public:
   explicit UsualStep(const std::vector<Interval>& all) : all_(all) {}
@@ -56,7 +56,7 @@ std::vector<Interval> whole_steps(std::span<const double> growth, std::span<cons
                    .seconds = time_s[to] - time_s[from],
                    .growth = mean(growth.subspan(from + 1, to - from))});
   }
-  // Who slows down takes longer than before, but not than after.
+  // A step of a walker who slows down is longer than those before, but not than those after.
   constexpr std::ptrdiff_t kBeside = 3;
   const auto median_s = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     std::vector<double> seconds;
@@ -72,7 +72,7 @@ std::vector<Interval> whole_steps(std::span<const double> growth, std::span<cons
   return whole;
 }
 
-/// Bridged steps with the other leg than the step beside them.
+/// Gives each bridged step the opposite leg to the step next to it.
 void alternate_bridged(std::vector<Step>& steps) {
   const auto other = [](Leg leg) { return leg == Leg::kLeft ? Leg::kRight : Leg::kLeft; };
   const auto seen = std::ranges::find(steps, false, &Step::bridged);
@@ -88,7 +88,8 @@ StepWay::StepWay(std::span<const double> growth, std::span<const double> time_s,
     : time_s_(time_s), options_(options) {
   const std::vector<Interval> steps = whole_steps(growth, time_s, step_frames, options.missed_ratio);
   if (steps.empty()) return;
-  std::vector<double> speed, over_step;  // shares of the usual: growth of the frame, and about it
+  std::vector<double> speed, over_step;  // shares of the usual growth: at the frame, and over a step around
+                                         // it
   UsualStep about(steps);
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const Interval usual = about.at(time_s[i]);
@@ -137,7 +138,7 @@ bool StepWay::gap(std::size_t a, std::size_t b) const {
 }
 
 std::size_t StepWay::after(std::size_t frame, double steps) const {
-  const auto reached = std::ranges::lower_bound(way_, way_[frame] + steps - 1e-9);  // of rounding
+  const auto reached = std::ranges::lower_bound(way_, way_[frame] + steps - 1e-9);  // rounding
   return std::min(static_cast<std::size_t>(reached - way_.begin()), way_.size() - 1);
 }
 
@@ -148,8 +149,8 @@ StepDetection complete_steps(StepDetection detection, const StepWay& way, std::s
   const auto add_lost = [&](std::size_t frame) {
     steps.push_back({frame, time_s[frame], Leg::kLeft, signal[frame], true});
   };
-  // Up to a step lies between an end of the recording and the footfall next to it; the way is known no better
-  // than to a quarter.
+  // Up to a step lies between an end of the recording and the nearest footfall; distance is known only to a
+  // quarter step.
   const auto lost = [](double steps_of_way) { return std::max(0.0, std::floor(steps_of_way - 0.25)); };
 
   const double before = way.between(0, detection.steps.front().frame);

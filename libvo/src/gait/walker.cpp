@@ -10,8 +10,8 @@
 namespace vo {
 namespace {
 
-/// How much a stretch of a signal is like itself so many frames on and unlike itself half of that on, -1
-/// to 1.
+/// How much a stretch of a signal resembles itself `period` frames later and its opposite half of that later,
+/// -1 to 1.
 double swings_at(std::span<const double> x, std::size_t period) {
   const auto correlation = [&](std::size_t lag) {
     double product = 0, early = 0, late = 0;
@@ -26,7 +26,7 @@ double swings_at(std::span<const double> x, std::size_t period) {
   return (correlation(period) - (correlation(period / 2) + correlation((period + 1) / 2)) / 2) / 2;
 }
 
-/// How much a signal swings with every other bounce of a window.
+/// How much a signal swings with every other bounce in a window.
 double swing_with(const Signal& signal, const Periodicity& bounce, double rate_hz) {
   const std::size_t begin = bounce.frame - std::min(bounce.frame, bounce.reach);
   const std::size_t end = std::min(signal.values.size(), bounce.frame + bounce.reach + 1);
@@ -38,7 +38,7 @@ double swing_with(const Signal& signal, const Periodicity& bounce, double rate_h
   return best;
 }
 
-/// Steps that follow each other without a pause: where they begin, and where the next do.
+/// Ranges of steps that follow each other without a pause.
 std::vector<FrameRange> bouts(std::span<const Step> steps, double pause_s) {
   std::vector<FrameRange> all;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -50,7 +50,7 @@ std::vector<FrameRange> bouts(std::span<const Step> steps, double pause_s) {
 
 }  // namespace
 
-std::vector<bool> gets_on(const GaitSignal& signal) {
+std::vector<bool> camera_travels(const GaitSignal& signal) {
   constexpr double kReach_s = 2.5;
   const std::vector<double>& growth = signal.growth_per_s;
   std::vector<double> sum(growth.size() + 1, 0);
@@ -64,7 +64,7 @@ std::vector<bool> gets_on(const GaitSignal& signal) {
   return nearer;
 }
 
-std::vector<bool> bounces_as_walker(const GaitSignal& signal, std::span<const Periodicity> bounce) {
+std::vector<bool> bounces_like_walker(const GaitSignal& signal, std::span<const Periodicity> bounce) {
   constexpr double kEven = 0.8, kEvenAndSwings = 1.2, kReach_s = 10;
   struct Window {
     double time_s, even, swings;
@@ -113,7 +113,7 @@ StepDetection walkers_steps(StepDetection detection, const std::vector<bool>& wa
     const std::span<const Step> steps = std::span(detection.steps).subspan(bout.begin, bout.size());
     const double length_s = steps.back().time_s - steps.front().time_s;
     const double cadence_hz = static_cast<double>(steps.size() - 1) / length_s;
-    constexpr std::size_t kFew = 4;  // too few to tell a cadence by
+    constexpr std::size_t kFew = 4;  // too few for a cadence
     if (steps.size() > kFew && (cadence_hz < kSlowestSteps_hz || cadence_hz > kFastestSteps_hz)) continue;
     kept.insert(kept.end(), steps.begin(), steps.end());
   }

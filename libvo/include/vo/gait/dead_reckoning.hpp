@@ -10,10 +10,9 @@ namespace vo {
 
 /// Settings of `dead_reckon` and `step_displacement_m`.
 struct DeadReckoningOptions {
-  /// At the frame that a step is found at, all of it is made, in the direction of the heading at that frame
-  /// [PVO 4.6].
+  /// The whole step is made at the frame it is found at, in the direction of that frame's heading [PVO 4.6].
   bool as_published = false;
-  double pause_s = 1.5;  ///< longest step, seconds; one that comes later was preceded by a stand
+  double pause_s = 1.5;  ///< longest step, seconds; before a later one the walker paused
 };
 
 /// A walk in the plane, metres from where it began.
@@ -25,18 +24,19 @@ struct DeadReckoning {
 /// Metres walked from the frame before to each frame (the first: 0): each step's length, spread evenly over
 /// the time since the step before it.
 ///
-/// The extrema that steps are found at come earlier on one side than on the other, as no trunk rolls evenly:
-/// intervals of 0.36 s and 0.70 s by turns are usual for steps of 0.53 s. So the times of left and right
-/// steps are moved, by a constant each, until both take equally long in the median; but not `as_published`.
+/// The extrema that mark steps come earlier on one side than on the other, as no trunk rolls evenly:
+/// intervals that alternate between 0.36 s and 0.70 s are usual for steps of 0.53 s. So left and right steps
+/// are each shifted in time by a constant, until both take equally long in the median, unless
+/// `as_published`.
 ///
-/// A step after a gap longer than `pause_s`, like the first, takes only its usual time before it is done: as
-/// long as the step that follows, or the median of all, or half a second if there is no other. The walker
-/// stands still before that. Of the first step, and of one more of the length of the last, the `partial`
-/// shares count. The sum is that of the lengths, but for these.
+/// A step after a gap longer than `pause_s`, like the first, takes only its usual time: as long as the step
+/// that follows, or the median of all, or half a second if there is no other. The walker is still before
+/// that. The first step, and one more as long as the last, count by their `partial` shares. Apart from these,
+/// the sum equals that of the lengths.
 ///
 /// `lengths_m`: one per step; `time_s`: one per frame, increasing. Throws `std::invalid_argument` for another
-/// number of lengths, shares outside 0 to 1, or steps whose frames decrease, are not from 1 on, or not among
-/// the frames: steps made in a gap of the clock all lie at the frame after it. O(n).
+/// number of lengths, shares outside 0 to 1, or step frames that decrease, are below 1, or are not frames of
+/// the walk. Steps made in a gap of the clock all lie at the frame after it. O(n).
 std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<const double> lengths_m,
                                         std::span<const double> time_s, const PartialSteps& partial = {},
                                         const DeadReckoningOptions& options = {});
@@ -44,11 +44,11 @@ std::vector<double> step_displacement_m(std::span<const Step> steps, std::span<c
 /// Joins steps and headings to a trajectory from (0, 0) (PVO 4.6):
 /// x_i = x_(i-1) + length_i * sin(heading_i), y_i = y_(i-1) + length_i * cos(heading_i).
 ///
-/// In PVO heading_i is that of the frame at which step i is found. There the trunk is turned furthest to one
-/// side; and on a corner one step's frames look in many directions. So, unless `as_published`, a step goes
-/// where the walker looks while he takes it: length_i times the mean of (sin, cos) over its frames, weighted
-/// by `step_displacement_m`, and heading_i is the direction of that. Between steps, the pose at a frame moves
-/// with that displacement; at a step's frame it is that step's.
+/// In PVO heading_i is the heading of the frame at which step i is found. There the trunk is turned furthest
+/// to one side, and on a corner one step's frames look in many directions. So, unless `as_published`, a step
+/// goes where the walker looks while taking it: length_i times the mean of (sin, cos) over its frames,
+/// weighted by `step_displacement_m`; heading_i is the direction of that mean. Between steps, the pose moves
+/// with that displacement; at a step's frame it is that step's pose.
 ///
 /// `heading_rad`: one per frame, clockwise from +y; the rest as `step_displacement_m`. O(n).
 DeadReckoning dead_reckon(std::span<const Step> steps, std::span<const double> lengths_m,

@@ -16,8 +16,8 @@ namespace vo {
 
 enum class Average { kMedian, kMean };
 
-/// What the tracked points of one frame say of the camera's motion since the frame before. Changes over the
-/// tracking window are divided by its frames. None where fewer points than asked were tracked.
+/// What the tracked points of one frame show of the camera's motion since the frame before. Changes over the
+/// tracking window are divided by its number of frames. None where too few points were tracked.
 struct FrameMotion {
   std::size_t matches = 0;  ///< points tracked over the window
   int window = 1;           ///< frames that it reached back
@@ -35,12 +35,11 @@ struct FrameMotionOptions {
   HeadingOptions heading;
 };
 
-/// Sums up a frame's points (PVO 4.3). Orientation changes are wrapped to half a turn before they are
-/// averaged; the mean of angles is that of their directions. `camera`: of the frames the points were found
-/// in. O(points).
+/// Averages a frame's points (PVO 4.3). Orientation changes are wrapped to half a turn first; the mean of
+/// angles is that of their directions. `camera`: of the frames the points were found in. O(points).
 FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const FrameMotionOptions& options = {});
 
-/// What the values of a signal are, each as the change from one frame to the next.
+/// The unit of a signal's values, which are changes from one frame to the next.
 enum class SignalUnit { kDegrees, kPixels };
 
 /// "deg", "px".
@@ -52,10 +51,9 @@ struct Signal {
   SignalUnit unit = SignalUnit::kDegrees;
 };
 
-/// The least amplitude that gait has in a signal of so many frames a second: 1 degree or 0.5 pixels a second.
-/// A still camera with the noise of a sensor has up to a quarter of that, as points and their orientations
-/// are found no more exactly, and evenly enough at times to look like gait; a walker whose camera steadies
-/// its picture twice that and more.
+/// The least amplitude of gait in a signal at `rate_hz` frames a second: 1 degree or 0.5 pixels a second. The
+/// sensor noise of a still camera reaches a quarter of that, at times evenly enough to look like gait; a
+/// walker whose camera steadies its picture has at least twice that.
 double least_gait(SignalUnit unit, double rate_hz);
 
 /// The signals that steps are read from, and the direction walked in, for each frame of a walk.
@@ -67,7 +65,7 @@ struct GaitSignal {
   Signal bounce;                     ///< picture's motion down without drift, low-passed
   std::vector<double> growth_per_s;  ///< share by which the picture grows in a second, low-passed
   std::vector<double> heading_rad;   ///< of the walker, clockwise, since the first frame
-  double travel_rad = 0;             ///< how far right of where the camera looks the walker goes
+  double travel_rad = 0;             ///< direction of travel, to the right of where the camera looks
   std::vector<std::size_t> matches;  ///< points tracked
   std::vector<bool> reliable;        ///< false where too few points were tracked
   std::size_t bridged = 0;           ///< frames that are not reliable, the first not counted
@@ -79,13 +77,12 @@ struct GaitSignalOptions {
   double heading_cutoff_hz = 0.5;  ///< of the heading, slower than any stride; 0 leaves the trunk's swing in
 };
 
-/// Joins the frames' motions (PVO 4.3, 4.5): gaps bridged by straight lines and marked, never taken as zero;
-/// low-passed without lag. The heading is the sum of the turns, freed of the trunk's swing with each stride,
-/// which PVO trusts to cancel out over two steps. `time_s` is even, as filters take it to be (`even_motion`).
-/// The camera need not look straight ahead, as it must for
-/// PVO: where the walker goes is the median of what the frames say. Throws `std::invalid_argument` if there
-/// is not one time for each frame, for fewer than two frames, or a frame rate that is not above twice the
-/// filter's cut-off. O(n).
+/// Joins the frames' motions (PVO 4.3, 4.5): gaps are bridged by straight lines and marked, never taken as
+/// zero; the result is low-passed without lag. The heading is the sum of the turns without the trunk's swing
+/// in each stride, which PVO expects to cancel over two steps. `time_s` is evenly spaced, as filters require
+/// (`even_motion`). The camera need not look straight ahead, as it must in PVO: the direction of travel is
+/// the median over the frames. Throws `std::invalid_argument` if there is not one time for each frame, for
+/// fewer than two frames, or a frame rate that is not above twice the filter's cut-off. O(n).
 GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const double> time_s,
                        const GaitSignalOptions& options = {});
 

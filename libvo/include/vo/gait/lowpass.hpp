@@ -8,23 +8,23 @@ namespace vo {
 
 /// Settings of the low-pass filter.
 struct LowpassOptions {
-  /// 1 to 8. PVO gives none; the usual filter of gait analysis is of order 2, run both ways (Winter,
+  /// 1 to 8. PVO gives no order; the usual filter in gait analysis is of order 2, run both ways (Winter,
   /// "Biomechanics and Motor Control of Human Movement").
   int order = 2;
   double cutoff_hz = 4;  ///< where one pass halves the power [PVO 5.3 (2)]
 };
 
-/// Values whose flag is false, replaced by the straight line between the reliable ones about them; before the
-/// first and after the last, by that value; by 0 if none is reliable. One flag per value, else
-/// `std::invalid_argument`. A filter would smear what is no measurement over its neighbours. O(n).
+/// Replaces values whose flag is false by a straight line between the reliable ones on either side; before
+/// the first and after the last, by that value; by 0 if none is reliable. Otherwise a filter would smear them
+/// over their neighbours. Throws `std::invalid_argument` unless there is one flag per value. O(n).
 std::vector<double> bridge_gaps(std::span<const double> values, const std::vector<bool>& reliable);
 
-/// A Butterworth low-pass filter that sees one value after another (PVO 4.3, 5.3 (2)), for live use.
+/// A Butterworth low-pass filter that takes one value at a time (PVO 4.3, 5.3 (2)), for live use.
 ///
 /// Second-order sections by the bilinear transform, with the cut-off warped so that it comes out exact. The
-/// gain at f Hz is 1 / sqrt(1 + (tan(pi f / rate) / tan(pi cutoff / rate))^(2 order)), 1 at rest. The first
-/// value is taken to have been there for ever, so that nothing rings in. The output lags: by order 2 at 4 Hz,
-/// by 56 ms.
+/// gain at f Hz is 1 / sqrt(1 + (tan(pi f / rate) / tan(pi cutoff / rate))^(2 order)), 1 at rest. The input
+/// is assumed to have always had its first value, so that there is no start-up transient. The output lags: by
+/// 56 ms for order 2 at 4 Hz.
 class Lowpass {
  public:
   /// Throws `std::invalid_argument`, naming value and expectation, for an order outside 1..8, a cut-off that
@@ -45,16 +45,16 @@ class Lowpass {
 };
 
 /// The same filter run forwards and backwards over a whole signal, for files: no lag at any frequency, and
-/// the gain squared. The ends are continued by their reflection through the end point (odd), by three periods
-/// of the cut-off or as far as the signal reaches. One value out for each in. Throws as `Lowpass`.
+/// the gain squared. The ends are extended by odd reflection through the end point, for three periods of the
+/// cut-off or as far as the signal reaches. One value out for each in. Throws as `Lowpass`.
 /// O(order * n).
 std::vector<double> lowpass_zero_phase(std::span<const double> signal, double rate_hz,
                                        const LowpassOptions& options = {});
 
-/// The signal less what of it is slower than `slowest_hz`: itself minus its own zero-phase low-pass of order
-/// 2 there. Takes turns and drift out of a signal in which strides, of which the slowest has 0.5 Hz, are to
-/// be found: the median x shift swings with them as the orientation does, and where a camera holds its
-/// horizon steady by itself it is all that does. Throws as `Lowpass`.
+/// The signal without its part slower than `slowest_hz`: the signal minus its zero-phase low-pass of order 2.
+/// Takes out turns and drift but leaves strides, which have 0.5 Hz or more: the median x shift swings with
+/// them as the orientation does, and where a camera holds its horizon steady it alone does. Throws as
+/// `Lowpass`.
 std::vector<double> without_drift(std::span<const double> signal, double rate_hz, double slowest_hz = 0.5);
 
 }  // namespace vo

@@ -12,16 +12,16 @@ namespace vo {
 struct PictureMotion {
   double right_px = 0;
   double down_px = 0;
-  double growth = 0;    ///< share by which it grows: what is ahead comes nearer
+  double growth = 0;    ///< share by which it grows as things ahead come nearer
   double roll_rad = 0;  ///< clockwise
 };
 
-/// The motion that moves most of the points (not in PVO), so that how far the picture bounces is told from
-/// how much it grows: the ground, which fills half of it, moves down when one walks on.
+/// The motion that most of the points follow (not in PVO). It separates bounce from growth: the ground, which
+/// fills half the picture, moves down as the camera moves forward.
 ///
-/// Least squares with Cauchy weights, at one and a half times the median distance, from the mean motion:
-/// things near and passers-by move otherwise. `width_px`, `height_px`: of the frames. None for fewer than two
-/// points, or where all are in one place. O(points).
+/// Least squares with Cauchy weights, at one and a half times the median distance, starting at the mean
+/// motion: near things and passers-by move differently. `width_px`, `height_px`: of the frames. None for
+/// fewer than two points, or if all are in one place. O(points).
 std::optional<PictureMotion> picture_motion(std::span<const TrackedPoint> points, int width_px,
                                             int height_px);
 

@@ -16,28 +16,27 @@ struct PublishedStepOptions {
   std::size_t last_steps = 5;       ///< whose differences count, >= 2 [PVO 5.3 (3)]
 };
 
-/// Finds steps in the orientation signal by the rules of PVO 4.4 and 5.3 (3), and by nothing else.
+/// Finds steps in the orientation signal by the rules of PVO 4.4 and 5.3 (3) alone.
 ///
 /// - An extremum is a peak above 0, a step with the left leg, or a valley below 0, one with the right; other
-///   peaks and valleys are none.
-/// - One whose value is below delta_min is noise. One that is not updates delta_dyn = ratio * median of the
-///   absolute differences of the last five steps, each with the one before it: four differences, each of a
-///   left and a right step, as steps alternate.
-/// - It is a step if its value is greater than delta_dyn. Of two in a row with the same leg the one of the
+///   peaks and valleys do not count.
+/// - One with a value below delta_min is noise. Any other updates delta_dyn = ratio * median of the absolute
+///   differences of the last five steps, each from the one before it: four differences, each of a left and a
+///   right step, as steps alternate.
+/// - It is a step if its value is greater than delta_dyn. Of two in a row with the same leg, the one with the
 ///   larger value stays, however long ago the other was.
 ///
-/// There is no gate for what is like gait, and no step is filled in, so that a walker who stands breeds steps
-/// if delta_min is 0 (Fig. 3a), and noise does if it is large (Fig. 6). `detect_steps` is ours, which mends
-/// that.
+/// The signal need not resemble gait, and no step is filled in, so a standing walker gives false steps if
+/// delta_min is 0 (Fig. 3a), and so does large noise (Fig. 6). Our `detect_steps` avoids that.
 ///
-/// PVO leaves open, and this takes for granted: before there are two steps, delta_dyn is 0; a plateau is an
-/// extremum at its first frame; of two equal steps with one leg the first stays. delta_min is set by hand for
-/// each person there. Not given, the average step is the amplitude of the stretches that are like gait
-/// (`gait_amplitude`); where there are none, delta_min is 0.
+/// Where PVO is silent: before there are two steps, delta_dyn is 0; a plateau is an extremum at its first
+/// frame; of two equal steps with one leg, the first stays. PVO sets delta_min by hand for each person. If
+/// not given, the average step is the amplitude of the stretches that resemble gait (`gait_amplitude`);
+/// without any, delta_min is 0.
 ///
 /// `signal`: one value per frame, low-passed; `time_s`: one per frame, increasing. `delta_dyn` of the result
 /// is that at each frame, as Fig. 3 draws it. Throws `std::invalid_argument` for another number of times or
-/// options out of range. O(n), and what `stride_periodicity` takes where delta_min is not given.
+/// options out of range. O(n), plus the cost of `stride_periodicity` if delta_min is not given.
 StepDetection detect_steps_as_published(std::span<const double> signal, std::span<const double> time_s,
                                         const PublishedStepOptions& options = {});
 

@@ -15,57 +15,56 @@ namespace vo {
 enum class StepSignal {
   kOrientation,  ///< the camera rolls with each stride [PVO]
   kBounce,       ///< the picture moves up and down with each step
-  kShift,  ///< it swings from side to side: where nothing else is like gait, as with cameras that hold their
+  kShift,  ///< it swings from side to side: used where nothing else resembles gait, as with cameras that hold
            ///< horizon and height steady; legs are then a guess
   kPublished,  ///< the orientation, by PVO's rules alone
 };
 
 /// Settings of `read_steps`.
 struct StepReadingOptions {
-  /// None: the bounce, unless another shows gait in more of the walk; the orientation if its static threshold
-  /// is given.
+  /// None: the bounce, unless another signal shows gait in more of the walk; the orientation if its static
+  /// threshold is given.
   std::optional<StepSignal> signal;
   StepDetectionOptions detection;
   FootfallOptions footfalls;
   StepFusionOptions fusion;
 };
 
-/// One way to read the steps of a walk. All are given the same and may be put in place of each other.
+/// One way to read the steps of a walk. All readers take the same inputs and are interchangeable.
 struct StepReader {
-  StepSignal signal;           ///< that it reads
+  StepSignal signal;           ///< the signal it reads
   std::string_view name;       ///< "orientation", "bounce", "x shift", "orientation by PVO"
-  Signal GaitSignal::*values;  ///< that signal
+  Signal GaitSignal::*values;  ///< where its values are
   StepDetection (*read)(const GaitSignal& signal, const StepReadingOptions& options);
   bool on_request = false;  ///< only if asked for by name
 };
 
-/// The readers there are, in the order of `StepSignal`.
+/// All readers, in the order of `StepSignal`.
 ///
-/// - The orientation's is PVO's (`detect_steps`), with steps from the shift where points are few
-///   (`fill_steps`), unless `options.signal` asks for the orientation by name.
-/// - The bounce's is `detect_footfalls`, its legs those of the orientation.
-/// - The shift's is `detect_steps`, completed by the way (`complete_steps`); where most of its steps were not
-///   seen but filled in, there are none.
+/// - Orientation: PVO's (`detect_steps`), with steps from the shift where points are few (`fill_steps`),
+///   unless `options.signal` asks for the orientation by name.
+/// - Bounce: `detect_footfalls`, with legs from the orientation.
+/// - Shift: `detect_steps`, completed from the distance walked (`complete_steps`); no steps if most of them
+///   were not seen but filled in.
+/// - `kPublished`: `detect_steps_as_published`, with `options.detection.delta_min` if it is given.
 ///
-/// - That of `kPublished` is `detect_steps_as_published`, with `options.detection.delta_min` if it is given.
-///
-/// Of all but the last, only the steps of a walker count: the camera gets on (`gets_on`), bounces as one does
-/// (`bounces_as_walker`), swings by no less than noise can (`least_gait`), and the cadence is one of people
+/// In all but the last, only a walker's steps count: the camera travels (`camera_travels`), bounces like a
+/// walker (`bounces_like_walker`), swings by more than noise does (`least_gait`), and the cadence is human
 /// (`walkers_steps`).
 std::span<const StepReader> step_readers();
 
-/// The one that reads a signal.
+/// The reader of a signal.
 const StepReader& reader_of(StepSignal signal);
 
-/// The steps of a walk and what shows them.
+/// The steps of a walk and the signal they came from.
 struct StepReading {
-  StepSignal signal = StepSignal::kOrientation;  ///< which the steps were read from
+  StepSignal signal = StepSignal::kOrientation;  ///< that the steps were read from
   StepDetection detection;                       ///< in the signal's unit
 };
 
-/// Reads the steps of a walk (PVO 4.4) by the reader of the signal asked for, or the one that shows them
-/// best. A static threshold that is given is one of the orientation. `signal`: at even times. O(n) and what
-/// `stride_periodicity` takes.
+/// Reads the steps of a walk (PVO 4.4) from the signal asked for, or from the one that shows them best. A
+/// given static threshold is one of the orientation. `signal`: at even times. O(n) plus the cost of
+/// `stride_periodicity`.
 StepReading read_steps(const GaitSignal& signal, const StepReadingOptions& options = {});
 
 }  // namespace vo

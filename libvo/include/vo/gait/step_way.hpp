@@ -11,33 +11,33 @@ namespace vo {
 
 /// Settings of `StepWay`.
 struct StepWayOptions {
-  double min_growth = 0.2;   ///< share of the usual growth, over the time of a step, from which one walks
-  double slow_growth = 0.5;  ///< share of the usual growth, over the time of a step, below which one may halt
-  double min_stand = 2;      ///< steps: to stop and start again takes no less than their time
-  double min_way = 0.3;      ///< steps in the time of one, about a frame at which one walks
-  double missed_ratio = 1.5;  ///< of a usual step: a longer gap may have lost steps, or be a stand
+  double min_growth = 0.2;    ///< share of the usual growth, over a step's time, from which the walker moves
+  double slow_growth = 0.5;   ///< share of the usual growth, over a step's time, below which it may be a halt
+  double min_stand = 2;       ///< shortest pause, in steps' time: to stop and start again takes that long
+  double min_way = 0.3;       ///< steps made in the time of one, around a frame at which the walker moves
+  double missed_ratio = 1.5;  ///< times a usual step: a longer gap may hide lost steps or be a pause
 };
 
-/// How far a walker got on between any two frames, in steps, as the growth of the picture tells it.
+/// How far a walker moved between any two frames, in steps, measured by the growth of the picture.
 ///
-/// Things ahead grow in the picture at the rate of speed over distance. The distances differ from scene to
-/// scene, so that the measure is the growth at the nearest steps that follow each other without a gap. Speed
-/// is step length times cadence, and both grow alike with it (see `step_lengths_m`): cadence is the usual one
-/// times the square root of the growth's share of the usual, at most 1. One stands where the mean over the
-/// time of a step is below a least share: over it, noise and sway make up for themselves. Where the picture
-/// usually does not grow, as in a turn before a wall, the cadence is the usual one.
+/// Things ahead grow in the picture at the rate of speed over their distance. Distances differ from scene to
+/// scene, so growth is compared with the usual growth: that at the nearest steps without a gap between them.
+/// Speed is step length times cadence, which grow alike with it (see `step_lengths_m`): cadence is the usual
+/// one times the square root of growth over usual growth, at most 1. The walker is still where mean growth
+/// over the time of a step, in which noise and sway cancel, is below a least share. Where the picture usually
+/// does not grow, as in a turn before a wall, the cadence is the usual one.
 class StepWay {
  public:
   /// `growth`: share by which the picture grows, one per frame, low-passed, unreliable frames bridged;
-  /// `time_s`: one per frame, referred to from then on; `step_frames`: of sure steps, increasing. O(frames *
+  /// `time_s`: one per frame, must outlive the object; `step_frames`: of sure steps, increasing. O(frames *
   /// frames in a step).
   StepWay(std::span<const double> growth, std::span<const double> time_s,
           std::span<const std::size_t> step_frames, const StepWayOptions& options = {});
 
-  /// False if no two steps followed each other: then there is no measure, and nothing below may be called.
+  /// False if no two steps followed each other: then growth has no scale, and nothing below may be called.
   [[nodiscard]] bool known() const { return !way_.empty(); }
 
-  /// True if the picture grows at a frame as it does when one walks. O(frames in a step).
+  /// True if the picture grows at a frame as it does in walking. O(frames in a step).
   [[nodiscard]] bool walking(std::size_t frame) const;
 
   /// True if two frames lie further apart than one step takes.
@@ -46,34 +46,35 @@ class StepWay {
   /// Steps from frame `a` to frame `b`.
   [[nodiscard]] double between(std::size_t a, std::size_t b) const { return way_[b] - way_[a]; }
 
-  /// The frame at which so many steps after another are done; the last if they are not. O(log frames).
+  /// The first frame at which `steps` more have been made since `frame`; the last frame if there is none.
+  /// O(log frames).
   [[nodiscard]] std::size_t after(std::size_t frame, double steps) const;
 
-  /// Seconds of a usual step about a frame.
+  /// Duration of a usual step near a frame, seconds.
   [[nodiscard]] double step_s(std::size_t frame) const { return step_s_[frame]; }
 
  private:
-  /// Frames within so many seconds of one: the first, and the one after the last.
+  /// Frames within `seconds` of a frame: the first, and the one after the last.
   [[nodiscard]] std::pair<std::size_t, std::size_t> within(std::size_t frame, double seconds) const;
 
-  /// Sets the usual speed where the growth is low for less time than a stand takes.
+  /// Sets the usual speed where growth is low for less time than a pause takes.
   void walk_on(std::span<const double> over_step, std::vector<double>& speed) const;
 
   std::span<const double> time_s_;
   StepWayOptions options_;
-  std::vector<double> step_s_;  // usual, about each frame
+  std::vector<double> step_s_;  // usual, near each frame
   std::vector<double> way_;     // steps up to each frame
 };
 
-/// The steps with those that the way says were lost, and without those twice seen.
+/// Adds the steps that the distance walked shows were lost, and removes those seen twice.
 ///
-/// In a gap, such as a stand, a dark stretch, or a weak step, there were as many steps as the way is long, to
-/// the nearest whole number: the half step with which the feet come together at a halt makes one with that
-/// of the next start. Where it is none, the step before the gap is the one after it, and the larger stays. A
-/// recording begins and ends within a step, or with the half step from or to a stand: before the first step
-/// and after the last, some were lost if the way there is clearly longer than one. Steps added are marked as
-/// bridged, stand where the way says, and alternate. What is left of the way at both ends is `partial`.
-/// O(frames + steps * log frames).
+/// A gap, such as a pause, a dark stretch or a weak step, has as many steps as its distance, rounded: the
+/// half step that brings the feet together at a halt and the half step of the next start make one. If that is
+/// zero, the steps before and after the gap are the same step, and the larger stays. A recording begins and
+/// ends within a step, or with the half step out of or into a pause: before the first step and after the
+/// last, steps were lost if the distance there is clearly longer than one. Added steps are marked as bridged,
+/// placed by distance, and alternate. The distance left over at both ends is `partial`. O(frames + steps *
+/// log frames).
 StepDetection complete_steps(StepDetection detection, const StepWay& way, std::span<const double> signal,
                              std::span<const double> time_s);
 

@@ -69,14 +69,14 @@ vo::GaitSignal driving(double seconds, std::uint64_t seed) {
 }
 
 std::vector<bool> walker(const vo::GaitSignal& signal) {
-  return vo::bounces_as_walker(signal, vo::bounce_windows(signal.bounce.values, signal.time_s));
+  return vo::bounces_like_walker(signal, vo::bounce_windows(signal.bounce.values, signal.time_s));
 }
 
 TEST(GetsOn, WhereThePictureGrowsOrShrinks) {
-  EXPECT_THAT(vo::gets_on(growing(20, 0.05)), Each(true));
-  EXPECT_THAT(vo::gets_on(growing(20, -0.05)), Each(true));
-  EXPECT_THAT(vo::gets_on(growing(20, 0.005)), Each(false));
-  EXPECT_THAT(vo::gets_on({}), IsEmpty());
+  EXPECT_THAT(vo::camera_travels(growing(20, 0.05)), Each(true));
+  EXPECT_THAT(vo::camera_travels(growing(20, -0.05)), Each(true));
+  EXPECT_THAT(vo::camera_travels(growing(20, 0.005)), Each(false));
+  EXPECT_THAT(vo::camera_travels({}), IsEmpty());
 }
 
 TEST(GetsOn, NotWhereSwayComesBack) {
@@ -84,7 +84,7 @@ TEST(GetsOn, NotWhereSwayComesBack) {
   vo::GaitSignal signal = growing(30, 0);
   for (std::size_t i = 0; i < signal.time_s.size(); ++i)
     signal.growth_per_s[i] = 0.15 * std::sin(2 * std::numbers::pi * 0.8 * signal.time_s[i]);
-  const std::vector<bool> nearer = vo::gets_on(signal);
+  const std::vector<bool> nearer = vo::camera_travels(signal);
   // Four swings of 5 s; at the ends half a swing may be over.
   for (std::size_t i = 63; i + 63 < nearer.size(); ++i) EXPECT_FALSE(nearer[i]) << i;
 }
@@ -92,7 +92,7 @@ TEST(GetsOn, NotWhereSwayComesBack) {
 TEST(GetsOn, IsToldWithinSeconds) {
   vo::GaitSignal signal = growing(40, 0);
   for (std::size_t i = 500; i < 1000; ++i) signal.growth_per_s[i] = 0.1;
-  const std::vector<bool> nearer = vo::gets_on(signal);
+  const std::vector<bool> nearer = vo::camera_travels(signal);
   for (std::size_t i = 0; i < 1000; ++i) {
     if (i < 500 - 63) {
       EXPECT_FALSE(nearer[i]) << i;
@@ -134,7 +134,7 @@ TEST(BouncesAsWalker, NotWhereARoadDoesIt) {
 
 TEST(BouncesAsWalker, IsNotKnownWithoutGait) {
   EXPECT_THAT(walker(growing(20, 0.1)), Each(false));
-  EXPECT_THAT(vo::bounces_as_walker({}, {}), IsEmpty());
+  EXPECT_THAT(vo::bounces_like_walker({}, {}), IsEmpty());
 }
 
 vo::StepDetection steps_at(double hz, double seconds) {
