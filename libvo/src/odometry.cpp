@@ -187,9 +187,9 @@ VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options)
 
 std::optional<VisualMotion> visual_motion_if_any(const Walk& walk, const VisualMotionOptions& options) {
   const ImageStack normalised = patch_normalise(walk.thumbnails, options.patch);  // SSS Eq. 2
-  const Stands stands = find_stands(normalised, walk.time_s, options.standing);
-  if (stands.still) return std::nullopt;
-  VisualMotion motion{.standing = stands.standing};
+  const Pauses pauses = find_pauses(normalised, walk.time_s, options.standing);
+  if (pauses.still) return std::nullopt;
+  VisualMotion motion{.standing = pauses.standing};
   motion.errors = alignment_errors(normalised, walk.time_s, options.alignment);  // Eq. 1
   std::vector<bool> excluded =
       high_error_windows(motion.errors, walk.time_s, motion.standing, options.alignment);  // Fig. 10

@@ -39,7 +39,8 @@ Sum sum_of(const std::vector<Comparison>& comparisons, const std::vector<bool>& 
   return sum;
 }
 
-/// The error of each frame as a multiple of the usual one; of one that was not compared, its neighbour's.
+/// The error of each frame as a multiple of the usual one; a frame that was not compared gets its
+/// neighbour's.
 std::vector<double> relative_errors(const AlignmentErrors& errors, const std::vector<bool>& excluded) {
   std::vector<double> usual;
   for (const auto& comparisons : errors.by_span) {
@@ -79,7 +80,7 @@ AlignmentErrors alignment_errors(const ImageStack& normalised, std::span<const d
   errors.by_span.assign(options.spans, std::vector<Comparison>(frames));
   if (frames < 2) return errors;
   const double span_s = std::max(kAlignmentSpan_s, 0.5 / frame_rate_hz(time_s));
-  // Times come rounded to milliseconds; of two frames as near, the earlier.
+  // Times are rounded to milliseconds; of two equally near frames, the earlier.
   const double reach_s = span_s / 2 + 1e-4;
   parallel_for(frames, [&](std::size_t i) {
     std::size_t later = i + 1;

@@ -11,7 +11,7 @@
 namespace vo {
 namespace {
 
-/// The pose of a frame, of a series without times.
+/// The pose of a frame in a series without times.
 std::optional<Pose3> pose_of_frame(const PoseSeries& series, std::size_t frame) {
   const auto found = std::ranges::lower_bound(series.frame, frame);
   if (found == series.frame.end() || *found != frame) return std::nullopt;
@@ -93,7 +93,7 @@ DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const 
                     options.start_s + time_s.back()),
         "the walk's clock, or the file's time at its first frame");
   }
-  // The first frame has no way behind it. Who allows no gap at all asks for poses only.
+  // The first frame has no displacement. A caller who allows no gap at all wants poses only.
   const auto valid = std::ranges::count(track.frames, true, &TrackedDisplacement::valid);
   if (options.max_gap_s > 0 && time_s.size() > 1 && valid <= (track.frames[0].valid ? 1 : 0)) {
     throw Error(series.source, "has no two poses at neighbouring frames of the walk",

@@ -15,8 +15,8 @@ namespace {
 
 using Displacements = std::vector<std::optional<double>>;
 
-/// Root mean square difference over seconds, as a share of the mean of `truth`; none with too little to judge
-/// by.
+/// Root mean square difference over seconds, as a share of the mean of `truth`; none if there is too little
+/// of it.
 std::optional<double> relative_error(std::span<const double> time_s, const Displacements& truth,
                                      const Displacements& other) {
   constexpr std::size_t kFewSeconds = 5;
@@ -59,8 +59,8 @@ Displacements steps_of(const MotionEvidence& evidence) {
   return steps;
 }
 
-/// Alignment error as displacement, in the unit of `known`, where something is known; over frame separation
-/// where nothing is.
+/// Alignment error as displacement, in the unit of `known` if anything is known; otherwise over frame
+/// separation.
 Displacements errors_as_displacement(const MotionEvidence& evidence, const Displacements& known,
                                      const std::vector<FrameRange>& targets,
                                      const HybridMotionOptions& options) {
@@ -94,7 +94,7 @@ Displacements errors_as_displacement(const MotionEvidence& evidence, const Displ
   return displacement;
 }
 
-/// Mean speed over the second before or after a range, of frames that were not held; none where there are
+/// Mean speed over the second before or after a range, over frames that were not held; none if there are
 /// none.
 std::optional<double> speed_beside(const std::vector<FrameDisplacement>& frames,
                                    std::span<const double> time_s, FrameRange range, bool after) {
@@ -126,7 +126,7 @@ void hold_speed(std::vector<FrameDisplacement>& frames, std::span<const double> 
     const double begin_s = time_s[range.begin - 1], length_s = time_s[range.end - 1] - begin_s;
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const double frame_s = time_s[i] - time_s[i - 1];
-      if (frame_s > kLongestFilledGap_s) continue;  // what was done in it is not known
+      if (frame_s > kLongestFilledGap_s) continue;  // what happened in it is not known
       const double share = (time_s[i] - frame_s / 2 - begin_s) / length_s;
       frames[i].value = std::lerp(from, to, share) * frame_s;
       frames[i].sigma = variation * frames[i].value;
@@ -183,7 +183,7 @@ HybridMotion hybrid_motion(const MotionEvidence& evidence, const HybridMotionOpt
 
   for (std::size_t i = 1; i < count; ++i) {
     FrameDisplacement& frame = motion.frames[i];
-    // A black picture does not change either, nor much a blurred one; nobody steps while standing.
+    // A black picture does not change either, and a blurred one not much; nobody steps while standing.
     const bool seen = evidence.errors == nullptr || evidence.errors_known[i];
     const bool stepping = steps[i] && *steps[i] > 0;
     const bool still = seen && !stepping && !evidence.standing.empty() && evidence.standing[i];

@@ -23,8 +23,8 @@ Spline fit(const MotionModel& model) {
   return Eigen::SplineFitting<Spline>::Interpolate(separations, degree, errors);
 }
 
-/// Separations on an even grid of errors, from the spline or, where it is not increasing, straight between
-/// the knots. Fine enough that reading between its points is exact to 1e-5 frames.
+/// Separations on an even grid of errors, from the spline or, where it does not increase, straight lines
+/// between the knots. Fine enough that interpolating between its points is exact to 1e-5 frames.
 class Curve {
  public:
   explicit Curve(const MotionModel& model) : step_(model.error.back() / kSteps) {
@@ -57,7 +57,7 @@ class Curve {
   std::array<double, kSteps + 1> value_;
 };
 
-/// estimates[k][i]: speed from frame i on, over k + 1 spans; infinite where there is none to be had.
+/// estimates[k][i]: speed from frame i on, over k + 1 spans; infinite where there is none.
 using SpeedEstimates = std::vector<std::vector<double>>;
 
 constexpr double kNoSpeed = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ void estimate_speeds(const AlignmentErrors& errors, const MotionModel& model, st
 }
 
 /// At each frame the least over k of the mean estimate of the spans that contain the step to it; infinite
-/// where none does.
+/// where none contains it.
 std::vector<double> least_speeds(const AlignmentErrors& errors, const SpeedEstimates& estimates) {
   const std::size_t frames = errors.frames();
   std::vector<double> least(frames, kNoSpeed);
@@ -162,7 +162,7 @@ MotionModel learn_motion_model(const AlignmentErrors& errors, std::span<const do
   };
   std::vector<Pair> pairs;
   std::vector<double> travelled{0};     // up to each frame
-  std::vector<std::size_t> unknown{0};  // how many frames, up to each
+  std::vector<std::size_t> unknown{0};  // how many unknown frames, up to each
   for (std::size_t i = 0; i < known.size(); ++i) {
     travelled.push_back(travelled.back() + (known[i] ? displacement[i] : 0));
     unknown.push_back(unknown.back() + (known[i] ? 0 : 1));

@@ -7,7 +7,7 @@
 namespace vo {
 namespace {
 
-/// Mean speed over a range, of the frames known; none if that is less than half of its time or it stands.
+/// Mean speed over the known frames of a range; none if they are less than half of its time or do not move.
 std::optional<double> speed_over(std::span<const double> time_s,
                                  std::span<const std::optional<double>> displacement, FrameRange range) {
   double moved = 0, known_s = 0, all_s = 0;
@@ -30,7 +30,7 @@ FrameRange seconds_from(std::span<const double> time_s, double at_s, double leng
   return {index(at_s), index(at_s + length_s)};
 }
 
-/// Root mean square change of the logarithm of speed over so many seconds; none where too little is known.
+/// Root mean square change of the logarithm of speed over that many seconds; none if too little is known.
 std::optional<double> speed_change(std::span<const double> time_s,
                                    std::span<const std::optional<double>> displacement, double over_s,
                                    double speed_s) {
@@ -48,13 +48,14 @@ std::optional<double> speed_change(std::span<const double> time_s,
   return std::sqrt(square / static_cast<double>(count));
 }
 
-/// Just past the last frame before `end` that is known; 0 if none is.
+/// One past the last known frame before `end`; 0 if none is known.
 std::size_t last_known(std::span<const std::optional<double>> displacement, std::size_t end) {
   while (end > 0 && !displacement[end - 1]) --end;
   return end;
 }
 
-/// The frames before `end` among which `wanted` are known, or all there are: further back after a long loss.
+/// The frames before `end` that contain `wanted` known ones, or all of them; reaches further back after a
+/// long loss.
 FrameRange known_before(std::span<const std::optional<double>> displacement, std::size_t end,
                         std::size_t wanted) {
   FrameRange before{end, end};
@@ -63,9 +64,9 @@ FrameRange known_before(std::span<const std::optional<double>> displacement, std
   return before;
 }
 
-/// The frames whose alignment error says something of the way: in a turn the picture changes without any.
+/// The frames whose alignment error shows distance: in a turn the picture changes without any.
 std::vector<bool> usable_errors(const MotionEvidence& evidence) {
-  constexpr double kTurning_rad_s = 0.1;  // at 10 m/s it shifts points 50 m off as far as the way does
+  constexpr double kTurning_rad_s = 0.1;  // at 10 m/s it shifts points 50 m away as much as the motion does
   std::vector<bool> usable = evidence.errors_known;
   for (std::size_t i = 1; i < usable.size() && evidence.track != nullptr; ++i) {
     const std::optional<double>& turn_rad = evidence.track->frames[i].turn_rad;
@@ -81,7 +82,7 @@ std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRang
                                        std::span<const std::optional<double>> way,
                                        std::span<const std::optional<double>> tied,
                                        const SegmentTieOptions& options) {
-  constexpr double kLeastSigma = 0.05;  // a walk that never changed its speed may begin to
+  constexpr double kLeastSigma = 0.05;  // a walk that has never changed its speed may still do so
   const std::size_t lost = last_known(tied, run.begin);
   if (lost == 0) return std::nullopt;
   const double lost_s = time_s[lost - 1], found_s = time_s[run.begin];

@@ -18,7 +18,7 @@ namespace vo {
 
 namespace {
 
-/// Errors of the frames not excluded with those half of their number on.
+/// Errors between the frames not excluded and those half of their number later.
 std::vector<double> distant_errors(const ImageStack& normalised, const std::vector<bool>& excluded) {
   std::vector<std::size_t> frames;
   for (std::size_t i = 0; i < normalised.size(); ++i)
@@ -55,16 +55,16 @@ std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const d
   const auto frame_at = [&](double s) {
     return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
   };
-  constexpr double kLongest = 1.5;  // times the span, at hardly a frame a second
+  constexpr double kLongest = 1.5;  // times the span, at barely a frame a second
   const double limit = options.alike * distant_error;
   const std::vector<std::uint8_t> blank(normalised.image_size(), kNeutralByte);
-  std::vector<char> shows(normalised.size());  // a picture of nothing is like any other
+  std::vector<char> shows(normalised.size());  // pictures of nothing are all alike
   parallel_for(normalised.size(), [&](std::size_t i) {
     constexpr double kLeast = 0.2;  // deviations: a quarter of what normal pixels differ from their mean
     shows[i] = alignment_error(normalised[i], blank) >= kLeast;
   });
   std::vector<std::size_t> last(normalised.size(),
-                                0);  // of the standing span that starts at each frame; 0: none does
+                                0);  // of the standing span that starts at each frame; 0: none starts there
   parallel_for(normalised.size(), [&](std::size_t first) {
     const std::size_t middle = frame_at(time_s[first] + options.span_s / 2);
     const std::size_t end = frame_at(time_s[first] + options.span_s);
@@ -83,22 +83,22 @@ std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const d
   return standing;
 }
 
-Stands find_stands(const ImageStack& normalised, std::span<const double> time_s,
+Pauses find_pauses(const ImageStack& normalised, std::span<const double> time_s,
                    const StandingOptions& options) {
   constexpr double kMostUnlike = 0.9;
   std::vector<double> errors = distant_errors(normalised, {});
   std::ranges::sort(errors);
-  Stands stands;
-  stands.still = errors.empty() || standing_still(percentile(errors, kMostUnlike));
-  if (stands.still) return stands;
-  stands.distant_error = percentile(errors, 0.5);
-  if (standing_still(stands.distant_error)) stands.distant_error = percentile(errors, kMostUnlike);
-  stands.standing = standing_steps(normalised, time_s, stands.distant_error, options);
-  if (2 * static_cast<std::size_t>(std::ranges::count(stands.standing, true)) <= normalised.size())
-    return stands;
-  stands.distant_error = distant_error(normalised, stands.standing);
-  stands.standing = standing_steps(normalised, time_s, stands.distant_error, options);
-  return stands;
+  Pauses pauses;
+  pauses.still = errors.empty() || standing_still(percentile(errors, kMostUnlike));
+  if (pauses.still) return pauses;
+  pauses.distant_error = percentile(errors, 0.5);
+  if (standing_still(pauses.distant_error)) pauses.distant_error = percentile(errors, kMostUnlike);
+  pauses.standing = standing_steps(normalised, time_s, pauses.distant_error, options);
+  if (2 * static_cast<std::size_t>(std::ranges::count(pauses.standing, true)) <= normalised.size())
+    return pauses;
+  pauses.distant_error = distant_error(normalised, pauses.standing);
+  pauses.standing = standing_steps(normalised, time_s, pauses.distant_error, options);
+  return pauses;
 }
 
 }  // namespace vo

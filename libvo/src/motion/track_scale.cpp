@@ -10,9 +10,8 @@ namespace {
 
 using Displacements = std::vector<std::optional<double>>;
 
-/// Ranges of frames of one segment with a displacement. `over_losses`: a segment goes on, in its unit, after
-/// frames that were lost; not with frames that have no pose in it, of a camera that stood or turned in
-/// between.
+/// Ranges of frames of one segment with a displacement. `over_losses`: a range continues, in its unit, after
+/// lost frames; not after frames of the segment without a pose, where the camera was still or turned.
 std::vector<FrameRange> runs_of(const DisplacementTrack& track, bool over_losses) {
   const auto posed = [&](std::size_t i) { return track.poses.size() != track.size() || track.poses[i]; };
   std::vector<FrameRange> runs;
@@ -44,7 +43,7 @@ FrameRange overlap(FrameRange a, FrameRange b) {
   return {std::max(a.begin, b.begin), std::max(std::max(a.begin, b.begin), std::min(a.end, b.end))};
 }
 
-/// All heights above the ground that are known of a range.
+/// All known heights above the ground in a range.
 std::vector<double> heights_in(const DisplacementTrack& track, FrameRange range) {
   std::vector<double> all;
   for (std::size_t i = range.begin; i < range.end && !track.heights.empty(); ++i)
@@ -52,8 +51,8 @@ std::vector<double> heights_in(const DisplacementTrack& track, FrameRange range)
   return all;
 }
 
-/// Takes the drift of scale out of a run: each frame by the height of the camera in the seconds around it,
-/// against that of the whole run. False, and nothing done, where too little ground is seen.
+/// Removes the drift of scale from a run: scales each frame by the camera's height in the whole run over that
+/// in the seconds around it. Returns false, and does nothing, where too little ground is seen.
 bool steady_by_ground(const MotionEvidence& evidence, const TrackScaleOptions& options, FrameRange run,
                       Displacements& way) {
   constexpr double kDrift = 0.2;  // of the logarithm of scale within a run, standard deviation
@@ -72,11 +71,11 @@ bool steady_by_ground(const MotionEvidence& evidence, const TrackScaleOptions& o
   return true;
 }
 
-/// One range in metres, each frame by the steps within `window_s` around it; false if steps tell no scale or
-/// contradict it.
+/// Converts one range to metres, each frame by the steps within `window_s` around it; false if steps give no
+/// scale or contradict it.
 bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& options, FrameRange run,
                     double window_s, const Displacements& track, Displacements& scaled) {
-  constexpr double kLeast_m = 1;                 // of steps, to tell a scale by
+  constexpr double kLeast_m = 1;                 // of steps, to give a scale
   std::vector<bool> both(evidence.steps_known);  // say something
   for (std::size_t i = run.begin; i < run.end; ++i) both[i] = both[i] && track[i];
   // A step that was not found, like the first of a walk, has no length to compare.
@@ -108,12 +107,12 @@ bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& opt
   return false;
 }
 
-/// Each run by the height of the camera, which is expected to be where speed and alignment error have it; by
-/// those alone where too little ground is seen.
+/// Ties each run by the height of the camera, expected where speed and alignment error put it; by those alone
+/// where too little ground is seen.
 ScaledTrack tie_without_steps(const MotionEvidence& evidence, const TrackScaleOptions& options,
                               const std::vector<FrameRange>& runs, const Displacements& way) {
   ScaledTrack tied{.displacement = Displacements(way.size())};
-  std::optional<double> camera_height;  // in the unit of what is tied
+  std::optional<double> camera_height;  // in the unit of the tied part
   for (const FrameRange& run : runs) {
     std::optional<SegmentTie> tie;
     if (&run == &runs.front()) {

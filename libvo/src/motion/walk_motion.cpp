@@ -14,8 +14,8 @@
 namespace vo {
 namespace {
 
-/// All of one source. The error is that of the walks of the tests: a track and steps are not there to measure
-/// it by.
+/// All from one source. The error is that of the test walks, as there are no track and steps to measure it
+/// with.
 std::vector<FrameDisplacement> from_one(const std::vector<double>& displacement, DisplacementSource source,
                                         double relative_error) {
   std::vector<FrameDisplacement> frames;
@@ -54,7 +54,7 @@ WalkMotion by_alignment_error(const Walk& walk, const VisualMotionOptions& optio
   return motion;
 }
 
-/// Frames whose steps could be seen, or were filled in; in a jump of the clock nothing was.
+/// Frames whose steps could be seen or were filled in; nothing was in a jump of the clock.
 std::vector<bool> steps_seen(const PedestrianMotion& motion, const Walk& walk) {
   std::vector<bool> seen = motion.signal.reliable;
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = seen[i] || motion.displacement_m[i] > 0;
@@ -73,8 +73,8 @@ bool steps_throughout(const PedestrianMotion& motion, const Walk& walk, const st
   return !motion.detection.steps.empty() && 2 * stepping >= moving;
 }
 
-/// False where steps would have the camera nearer to the ground, or higher, than one that is carried: the
-/// bounce and sway of a car may look like steps.
+/// False if steps put the camera lower or higher than people carry one: the bounce and sway of a car may look
+/// like steps.
 bool carried(const PedestrianMotion& motion, const Walk& walk) {
   constexpr double kLowest_m = 0.5, kHighest_m = 3;  // from hip to above the head, and steps half as long
   if (!walk.track) return true;
@@ -82,7 +82,7 @@ bool carried(const PedestrianMotion& motion, const Walk& walk) {
   return !height_m || (*height_m >= kLowest_m && *height_m <= kHighest_m);
 }
 
-/// A camera that does not move from where it is.
+/// A camera that stays where it is.
 WalkMotion standing_throughout(WalkMotion motion, const Walk& walk) {
   motion.frames = from_one(std::vector<double>(walk.frames(), 0), DisplacementSource::kAlignmentError, 0);
   if (motion.pedestrian) motion.trajectory = motion.pedestrian->trajectory.at_frame;

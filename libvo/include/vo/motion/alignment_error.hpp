@@ -11,17 +11,17 @@ namespace vo {
 
 /// A frame compared with a later one.
 struct Comparison {
-  std::uint32_t frames = 0;  ///< how many frames later that is; 0 if there was none to compare with
+  std::uint32_t frames = 0;  ///< how many frames later; 0 if there was none to compare with
   float seconds = 0;         ///< how much later
   float error = 0;           ///< mean absolute difference, in standard deviations of a patch
 
   [[nodiscard]] bool made() const { return frames > 0; }
 };
 
-/// Image alignment errors of a walk (SSS 3.1): how unlike frames of the walk are to those some time later.
+/// Image alignment errors of a walk (SSS 3.1): how much frames differ from those some time later.
 struct AlignmentErrors {
   /// `by_span[k][i]` compares frame i with the frame nearest to k + 1 spans after it, unless that is more
-  /// than half a span off. One value for each frame at each of the spans.
+  /// than half a span away. One value per frame and span.
   std::vector<std::vector<Comparison>> by_span;
 
   [[nodiscard]] std::size_t spans() const { return by_span.size(); }
@@ -39,12 +39,12 @@ struct AlignmentErrorOptions {
 };
 
 /// Mean absolute difference of two patch-normalised images (bytes), in standard deviations of a patch. Exact
-/// integer sums. Throws `std::invalid_argument` unless they are of one size and not empty.
+/// integer sums. Throws `std::invalid_argument` unless they have the same size and are not empty.
 double alignment_error(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
-/// SSS Eq. 1 before its average, over spans of time where SSS has numbers of frames: a walk has the same
-/// errors at any frame rate, and where its frame rate changes. A span is `kAlignmentSpan_s`, or half the
-/// median time between frames of a recording so slow that this is more.
+/// SSS Eq. 1 before averaging, over spans of time where SSS uses numbers of frames, so that errors do not
+/// depend on the frame rate, even if it changes. A span is `kAlignmentSpan_s`, or half the median time
+/// between frames in a recording so slow that this is more.
 ///
 /// `normalised`: bytes of `patch_normalise`, in order of time; `time_s`: of each, strictly increasing. Exact
 /// integer sums. Throws `std::invalid_argument` for no spans or another number of times. O(frames * spans *
@@ -52,21 +52,20 @@ double alignment_error(std::span<const std::uint8_t> a, std::span<const std::uin
 AlignmentErrors alignment_errors(const ImageStack& normalised, std::span<const double> time_s,
                                  const AlignmentErrorOptions& options = {});
 
-/// The errors averaged at each span (SSS Eq. 1, Fig. 2), over the frames that count.
+/// The mean error at each span (SSS Eq. 1, Fig. 2), over the frames that count.
 struct MeanErrors {
   std::vector<double> seconds;  ///< 0, then the mean time between the frames compared, increasing
   std::vector<double> error;    ///< 0, then the mean error
 };
 
-/// Starts with 0 at 0 s. `excluded`: one flag per frame, or empty for none. Spans without a comparison left
-/// are not there.
+/// Starts with 0 at 0 s. `excluded`: one flag per frame, or empty for none. Spans without a comparison are
+/// left out.
 MeanErrors mean_errors(const AlignmentErrors& errors, const std::vector<bool>& excluded = {});
 
-/// The frames in windows of high error: fairly large turns, abrupt changes of scene, speedy camera motion
-/// (SSS 6, Fig. 10). The error of a frame, as a multiple of what is usual at the spans it was compared at, is
-/// smoothed over time and compared with the walk's median + high_error_mads * MAD. Frames `excluded` (one
-/// flag per frame, or none) count for nothing and are none of them. `time_s`: one per frame, increasing.
-/// Returns one flag per frame.
+/// The frames in windows of high error: fairly large turns, abrupt changes of scene, fast camera motion (SSS
+/// 6, Fig. 10). The error of a frame, as a multiple of the usual error at its spans, is smoothed over time
+/// and compared with the walk's median + high_error_mads * MAD. Frames `excluded` (one flag per frame, or
+/// none) are ignored and never flagged. `time_s`: one per frame, increasing. Returns one flag per frame.
 std::vector<bool> high_error_windows(const AlignmentErrors& errors, std::span<const double> time_s,
                                      const std::vector<bool>& excluded = {},
                                      const AlignmentErrorOptions& options = {});

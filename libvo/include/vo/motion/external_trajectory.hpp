@@ -9,24 +9,24 @@ namespace vo {
 
 /// Settings of `external_trajectory`.
 struct ExternalTrajectoryOptions {
-  double start_s = 0;              ///< what the file's clock shows at the first frame
-  double time_tolerance_s = 0.02;  ///< seconds by which a single pose and a frame may be apart
-  double max_gap_s = 0.5;          ///< seconds between two poses beyond which nothing is known in between
+  double start_s = 0;              ///< time on the file's clock at the first frame
+  double time_tolerance_s = 0.02;  ///< largest time between a frame and a single pose, seconds
+  double max_gap_s = 0.5;          ///< longest time between two poses that is interpolated, seconds
   bool metric = true;              ///< the file is in metres
-  double relative_sigma = 0.02;    ///< standard deviation of a displacement, as a share: files do not say it
+  double relative_sigma = 0.02;    ///< standard deviation of a displacement, as a share: files do not give it
 };
 
-/// The track of a walk from a trajectory of another program's, matched by time.
+/// The track of a walk from another program's trajectory, matched by time.
 ///
-/// A frame between two poses not further apart than `max_gap_s` has the pose in between (linear, and along
-/// the shorter arc); one beside a gap, or at an end, has the nearest pose if that is within the tolerance;
-/// else it is lost (`TrackLoss::kGap`). After a gap a new segment begins, but all have one unit
-/// (`TrackScale::kMetric` or `kCommon`): gaps end no scale. A series without times has one pose for each
-/// frame.
+/// A frame between two poses at most `max_gap_s` apart gets an interpolated pose (linear, and along the
+/// shorter arc); one next to a gap, or at an end, gets the nearest pose if that is within the tolerance;
+/// otherwise it is lost (`TrackLoss::kGap`). A new segment begins after a gap, but all share one unit
+/// (`TrackScale::kMetric` or `kCommon`). A series without times has one pose for each frame.
 ///
 /// `time_s`: of the frames, since the first, strictly increasing. Throws `vo::Error` naming the file if a
-/// series without times has another number of poses, if no frame has a pose, or if none has a displacement
-/// though gaps are allowed; `std::invalid_argument` for options out of range. O(frames log poses).
+/// series without times has another number of poses than the walk has frames, if no frame has a pose, or if
+/// none has a displacement although gaps are allowed; `std::invalid_argument` for options out of range.
+/// O(frames log poses).
 DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const double> time_s,
                                       const ExternalTrajectoryOptions& options = {});
 

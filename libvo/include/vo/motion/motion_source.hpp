@@ -6,11 +6,11 @@ namespace vo {
 
 /// Where the displacement of a walk's frames comes from.
 enum class MotionSource {
-  kNone,            ///< nowhere: every k-th frame (the vanilla of SSS)
+  kNone,            ///< nowhere: every k-th frame (SSS's "vanilla")
   kSad,             ///< alignment error, through the learned motion model (SSS 3.2)
   kSteps,           ///< steps, in metres (PVO)
   kVisualOdometry,  ///< monocular visual odometry alone, as it is: nothing where it is lost, no common unit
-  kHybrid,          ///< all of them, each where it is best (SSS 3.5)
+  kHybrid,          ///< all of these, each where it is best (SSS 3.5)
   kFile,            ///< a trajectory from a file, alignment error where it has gaps
 };
 

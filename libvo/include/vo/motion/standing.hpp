@@ -7,47 +7,47 @@
 
 namespace vo {
 
-/// How unlike views are that have nothing to do with each other: the median error of frames half the walk
-/// apart. Two unrelated pictures of independent normal pixels have 2 / sqrt(pi) = 1.13. `normalised`: bytes
-/// of `patch_normalise`; `excluded`: one flag per frame that is left out, or empty; 0 for fewer than two
-/// frames left. O(frames * pixels), in parallel.
+/// How much unrelated views differ: the median error of frames half the walk apart. Two unrelated pictures of
+/// independent normal pixels have 2 / sqrt(pi) = 1.13. `normalised`: bytes of `patch_normalise`; `excluded`:
+/// one flag per frame, true if it is left out, or empty. 0 if fewer than two frames remain. O(frames *
+/// pixels), in parallel.
 double distant_error(const ImageStack& normalised, const std::vector<bool>& excluded = {});
 
-/// True if a walk of this distant error never leaves its first view, or there is nothing to be seen at all:
-/// less than a third of the error of unrelated pictures.
+/// True if a walk with this distant error never leaves its first view or shows nothing at all: less than a
+/// third of the error of unrelated pictures.
 bool standing_still(double distant_error);
 
 /// Settings of `standing_steps`.
 struct StandingOptions {
-  double span_s = 2;  ///< seconds over which a walker's view changes for good, a standing one's not; 0: never
-  double alike = 2.0 / 3;  ///< share of the distant error below which two views are of one place
+  double span_s = 2;       ///< seconds over which a moving walker's view changes for good; 0: never standing
+  double alike = 2.0 / 3;  ///< share of the distant error below which two views show one place
 };
 
-/// The steps from one frame to the next at which the walker stands still. One flag per frame, for the step
-/// that leads to it; the first is false.
+/// The intervals between frames in which the walker is still. One flag per frame, for the interval that ends
+/// with it; the first is false.
 ///
-/// SSS has no such stage: there, sway and breathing of a standing walker count as motion, a fifth of walking
-/// by alignment error alone. But they come back to where they were: a span is standing if its first, middle
-/// and last frame are all within `limit` of each other. Three frames, because two places along a fence or a
-/// row of doors may look alike by chance. Black frames do not change either, and tell nothing.
+/// SSS has no such stage: there, the sway and breathing of a standing walker count as motion, a fifth of
+/// walking by alignment error alone. But these return to where they began: a span is standing if its first,
+/// middle and last frames are all within `limit` of each other. Three frames, because two places along a
+/// fence or a row of doors may look alike by chance. Black frames do not change either, and show nothing.
 ///
 /// `normalised`: bytes of `patch_normalise`; `time_s`: one per frame, increasing. O(frames * pixels), in
 /// parallel.
 std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const double> time_s,
                                  double distant_error, const StandingOptions& options = {});
 
-/// Where a walker stands, and what that is told by.
-struct Stands {
+/// Where a walker is still, and the measurements behind it.
+struct Pauses {
   std::vector<bool> standing;  ///< as `standing_steps`; empty if the walk never leaves its first view
-  double distant_error = 0;    ///< that they were told by
+  double distant_error = 0;    ///< that it was decided by
   bool still = false;          ///< the walk never leaves its first view, or shows nothing
 };
 
-/// The same for a walk of which nothing is known yet. In one that stands most of the time, frames half the
-/// walk apart are mostly of one place and say nothing of how unlike places are; there the frames between the
-/// stands say it, and whether the walk leaves its first view the most unlike tenth. Throws and costs as
-/// `standing_steps`.
-Stands find_stands(const ImageStack& normalised, std::span<const double> time_s,
+/// The same for a walk about which nothing is known yet. If the walker is still most of the time, frames half
+/// the walk apart mostly show one place and do not measure how much places differ. Then the frames between
+/// the pauses do, and the most different tenth shows whether the walk leaves its first view. Throws and costs
+/// as `standing_steps`.
+Pauses find_pauses(const ImageStack& normalised, std::span<const double> time_s,
                    const StandingOptions& options = {});
 
 }  // namespace vo

@@ -141,28 +141,28 @@ TEST(StandingSteps, AreNotFoundOverAJumpOfTheClock) {
 
 TEST(FindStands, AreThoseOfStandingStepsWhereMostOfTheWalkMoves) {
   const auto walk = walk_with_a_stop(120, 40, 80);
-  const vo::Stands stands = vo::find_stands(walk, times(120));
-  EXPECT_FALSE(stands.still);
-  EXPECT_EQ(stands.distant_error, vo::distant_error(walk));
-  EXPECT_EQ(stands.standing, vo::standing_steps(walk, times(120), stands.distant_error));
+  const vo::Pauses pauses = vo::find_pauses(walk, times(120));
+  EXPECT_FALSE(pauses.still);
+  EXPECT_EQ(pauses.distant_error, vo::distant_error(walk));
+  EXPECT_EQ(pauses.standing, vo::standing_steps(walk, times(120), pauses.distant_error));
 }
 
 TEST(FindStands, AreFoundWhereMostOfTheWalkStands) {
   // Frames half the walk apart show one view.
   const auto walk = walk_with_a_stop(400, 30, 380);
   EXPECT_TRUE(vo::standing_still(vo::distant_error(walk)));
-  const vo::Stands stands = vo::find_stands(walk, times(400));
-  EXPECT_FALSE(stands.still);
-  ASSERT_EQ(stands.standing.size(), 400U);
-  for (std::size_t i = 0; i < 400; ++i) EXPECT_EQ(stands.standing[i], i >= 31 && i <= 379) << i;
+  const vo::Pauses pauses = vo::find_pauses(walk, times(400));
+  EXPECT_FALSE(pauses.still);
+  ASSERT_EQ(pauses.standing.size(), 400U);
+  for (std::size_t i = 0; i < 400; ++i) EXPECT_EQ(pauses.standing[i], i >= 31 && i <= 379) << i;
 }
 
 TEST(FindStands, SayThatAWalkNeverLeavesItsFirstView) {
-  const vo::Stands stands = vo::find_stands(walk_with_a_stop(100, 0, 100), times(100));
-  EXPECT_TRUE(stands.still);
-  EXPECT_THAT(stands.standing, IsEmpty());
-  EXPECT_TRUE(vo::find_stands(random_images(4, 4, 0, 1), {}).still);
-  EXPECT_TRUE(vo::find_stands(random_images(4, 4, 1, 1), times(1)).still);
+  const vo::Pauses pauses = vo::find_pauses(walk_with_a_stop(100, 0, 100), times(100));
+  EXPECT_TRUE(pauses.still);
+  EXPECT_THAT(pauses.standing, IsEmpty());
+  EXPECT_TRUE(vo::find_pauses(random_images(4, 4, 0, 1), {}).still);
+  EXPECT_TRUE(vo::find_pauses(random_images(4, 4, 1, 1), times(1)).still);
 }
 
 TEST(StandingSteps, OfEmptyAndMismatchedInput) {
