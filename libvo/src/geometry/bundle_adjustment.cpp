@@ -16,8 +16,8 @@ namespace vo {
 namespace {
 
 /// Ambient: the quaternion world_from_camera (x y z w) and the position. Tangent: a turn in the camera's
-/// axes, and the shift. Costs give their derivatives by the tangent in the first six columns, so the jacobian
-/// of plus is those six.
+/// axes, and the shift. Costs give their derivatives by the tangent in the first six columns, so the Jacobian
+/// of plus selects those six.
 class PoseManifold final : public ceres::Manifold {
  public:
   static constexpr int kAmbient = 7, kTangent = 6;
@@ -98,7 +98,7 @@ class Reprojection final : public ceres::SizedCostFunction<2, PoseManifold::kAmb
   double scale_;
 };
 
-/// What is known of the radial distortion beforehand.
+/// Prior knowledge of the radial distortion.
 class RadialPrior final : public ceres::SizedCostFunction<1, 1> {
  public:
   RadialPrior(double mean, double sigma) : mean_(mean), sigma_(sigma) {}
@@ -161,7 +161,7 @@ bool adjust(Bundle& bundle, const BundleOptions& options) {
   owned_by_us.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   owned_by_us.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   owned_by_us.disable_all_safety_checks = true;
-  std::deque<Reprojection> costs;  // before the problem that points to them
+  std::deque<Reprojection> costs;  // declared before the problem that points to them
   RadialPrior prior(options.radial_mean, options.radial_sigma);
   ceres::Problem problem(owned_by_us);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();

@@ -28,7 +28,7 @@ Camera camera_of_recording(const std::optional<Camera>& calibrated, int width_px
   if (!calibrated) return camera_from_fov(width_px, height_px, fov_deg);
   Camera camera = *calibrated;
   if (camera.width_px == 0) {
-    constexpr double kMiddle = 0.15;  // of width and height: lenses are centred to a few hundredths
+    constexpr double kMiddle = 0.15;  // of width and height: lenses are centred to within a few hundredths
     if (std::abs(camera.cx_px / width_px - 0.5) > kMiddle ||
         std::abs(camera.cy_px / height_px - 0.5) > kMiddle) {
       throw Error("camera calibration",
@@ -91,7 +91,7 @@ ImagePoint with_radial(const ImagePoint& at, double radial) {
 }
 
 ImagePoint without_radial(const ImagePoint& seen, double radial) {
-  constexpr int kRounds = 6;  // each leaves a share of about 2 radial r^2 of the error
+  constexpr int kRounds = 6;  // each reduces the error to about 2 radial r^2 of it
   ImagePoint at = seen;
   for (int i = 0; i < kRounds; ++i) {
     const double stretch = 1 + radial * (at.x * at.x + at.y * at.y);

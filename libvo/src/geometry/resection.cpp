@@ -49,7 +49,7 @@ std::optional<Pose3> from_samples(const Bundle& bundle, const ResectionOptions& 
   return Pose3{.rotation = camera_from_world.t(), .position = -(camera_from_world.t() * t)};
 }
 
-/// The position's part of the inverse of the information that the points hold about the pose.
+/// The position's part of the inverse of the points' information about the pose.
 cv::Matx33d position_covariance(const Bundle& bundle, const Resection& result, double noise) {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();

@@ -26,7 +26,7 @@ std::optional<cv::Vec3d> triangulate(std::span<const Pose3> cameras, std::span<c
   if (cameras.size() != seen.size() || cameras.size() < 2)
     throw std::invalid_argument("triangulate: two or more cameras, a ray for each expected");
   // The sum over views of the squared distances from the ray, (I - d d') (point - position), is least where
-  // its normal equations hold.
+  // these normal equations hold.
   cv::Matx33d normal = cv::Matx33d::zeros();
   cv::Vec3d right{0, 0, 0};
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -35,7 +35,7 @@ std::optional<cv::Vec3d> triangulate(std::span<const Pose3> cameras, std::span<c
     normal += across;
     right += across * cameras[i].position;
   }
-  constexpr double kParallel = 1e-9;  // the squared sine of the angle between two rays, about
+  constexpr double kParallel = 1e-9;  // about the squared sine of the angle between two rays
   if (cv::determinant(normal) < kParallel) return std::nullopt;
   const cv::Vec3d point = normal.solve(right, cv::DECOMP_CHOLESKY);
   for (const Pose3& camera : cameras) {

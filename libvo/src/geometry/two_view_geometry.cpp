@@ -14,7 +14,7 @@
 namespace vo {
 namespace {
 
-/// Beyond so many standard deviations a point does not fit (95 % of two degrees of freedom).
+/// A point more standard deviations away than this does not fit (95 % with two degrees of freedom).
 constexpr double kFit = 2.45;
 
 cv::Vec3d ray(const ImagePoint& p) {
@@ -51,7 +51,7 @@ std::vector<double> epipolar_errors(const cv::Matx33d& e, std::span<const ImageP
   return errors;
 }
 
-/// Squared distances from where the homography takes each point, halved: both ends have noise.
+/// Squared distances from where the homography maps each point, halved: both ends have noise.
 std::vector<double> planar_errors(const cv::Matx33d& h, std::span<const ImagePoint> from,
                                   std::span<const ImagePoint> to) {
   std::vector<double> errors;
@@ -74,7 +74,7 @@ double gric(const std::vector<double>& squared, double noise, int structure, int
   return sum + std::log(kDimensions) * structure * count + std::log(kDimensions * count) * parameters;
 }
 
-/// What a solution makes of the points.
+/// The points as a solution explains them.
 TwoViewGeometry place_points(const Pose3& second, const std::vector<double>& squared,
                              std::span<const ImagePoint> from, std::span<const ImagePoint> to, double noise) {
   TwoViewGeometry geometry{.second = second};
@@ -99,7 +99,7 @@ TwoViewGeometry place_points(const Pose3& second, const std::vector<double>& squ
   return geometry;
 }
 
-/// second_from_first, as OpenCV gives it, the other way round.
+/// The inverse of OpenCV's second_from_first.
 Pose3 inverse_of(const cv::Mat& rotation, const cv::Mat& translation) {
   const cv::Matx33d r(rotation.ptr<double>());
   const cv::Vec3d t(translation.ptr<double>());
@@ -131,7 +131,7 @@ ViewRotation view_rotation(std::span<const ImagePoint> from, std::span<const Ima
   ViewRotation result;
   result.off.assign(from.size(), 0);
   constexpr int kRounds = 12;
-  double scale = std::numeric_limits<double>::infinity();  // at first all points count alike
+  double scale = std::numeric_limits<double>::infinity();  // at first all points have equal weight
   for (int round = 0; round < kRounds; ++round) {
     cv::Matx33d sum = cv::Matx33d::zeros();
     for (std::size_t i = 0; i < from.size(); ++i) {

@@ -14,7 +14,7 @@ struct Corner {
   cv::Point2f at;
 };
 
-/// Points by cell, so that only neighbours are asked for their distance.
+/// Points by cell, so that only neighbours need a distance test.
 class CellIndex {
  public:
   CellIndex(cv::Size picture, int columns)

@@ -16,7 +16,7 @@ struct Nearest {
   float first = std::numeric_limits<float>::infinity();
   float second = std::numeric_limits<float>::infinity();
 
-  /// Of equal distances the lowest index is the nearest, whatever the order of the calls.
+  /// Among equal distances the lowest index counts as nearest, in any order of calls.
   void offer(std::size_t i, float distance) {
     if (distance < first || (distance == first && i < index)) {
       second = first;
@@ -28,8 +28,8 @@ struct Nearest {
   }
 };
 
-/// For each point of the first image its nearest of the second; for each of the second only the squared
-/// distance to its nearest of the first, which is all that a mutual test needs.
+/// For each point of the first image, its nearest in the second; for each of the second, only the squared
+/// distance to its nearest in the first, which is all a mutual test needs.
 struct NearestOfBoth {
   std::vector<Nearest> from;
   std::vector<float> to;

@@ -14,7 +14,7 @@ constexpr std::size_t kGroup = kernels::kLanes;  // points of one kernel call
 constexpr std::size_t kTaskGroups = 16;          // groups of queries in one task
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
-/// The points of one laplacian sign from the top of the image down, in groups.
+/// The points of one Laplacian sign from the top of the image down, in groups.
 struct Packed {
   std::vector<std::size_t> points;
   std::vector<float> values, norms, x_px, y_px;

@@ -7,7 +7,7 @@
 namespace vo {
 namespace {
 
-/// Kernel density at a place, times the kernel's width, and the mean of the values that it weighs.
+/// Kernel density at a value, times the kernel's width, and the weighted mean of the values.
 struct Peak {
   double support = 0;
   double mean = 0;
@@ -15,7 +15,7 @@ struct Peak {
 
 /// `sorted`: ascending.
 Peak density_at(std::span<const double> sorted, double at, double spread) {
-  constexpr double kReach = 3;  // of the kernel, in its standard deviations
+  constexpr double kReach = 3;  // of the kernel, in standard deviations
   Peak peak;
   const auto first = std::ranges::lower_bound(sorted, at - kReach * spread);
   for (auto value = first; value != sorted.end() && *value <= at + kReach * spread; ++value) {

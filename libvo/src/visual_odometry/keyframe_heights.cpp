@@ -4,7 +4,7 @@
 
 namespace vo {
 
-cv::Vec3d way_at(const LandmarkMap& map, std::size_t keyframe, double enough) {
+cv::Vec3d direction_at(const LandmarkMap& map, std::size_t keyframe, double enough) {
   const cv::Vec3d& here = map.keyframes[keyframe].pose.position;
   cv::Vec3d longest{0, 0, 0};
   const auto goes_so_far = [&](const cv::Vec3d& way) {

@@ -37,7 +37,7 @@ std::optional<cv::Vec3d> placed(const LandmarkMap& map, const Landmark& landmark
   return point;
 }
 
-/// Takes another radial distortion out of all image points.
+/// Removes another radial distortion from all image points.
 void set_radial(LandmarkMap& map, double radial) {
   const auto changed = [&](const ImagePoint& at) {
     return without_radial(with_radial(at, map.radial), radial);
@@ -92,7 +92,7 @@ void adjust_window(LandmarkMap& map, const LandmarkMapOptions& options) {
   }
   bundle.radial = map.radial;
   BundleOptions adjustment{.noise = options.noise};
-  if (begin > 0 && options.radial_step > 0) {  // the first keyframes alone cannot tell it
+  if (begin > 0 && options.radial_step > 0) {  // the first keyframes alone do not determine it
     const double calibration = 1 / (options.radial_sigma * options.radial_sigma);
     const double step = 1 / (options.radial_step * options.radial_step);
     adjustment.radial_mean = map.radial * step / (step + calibration);

@@ -8,7 +8,7 @@
 namespace vo {
 namespace {
 
-/// How many cells of a coarse grid over the picture the points lie in.
+/// The number of cells of a coarse grid over the picture that contain points.
 std::size_t cells_of(const std::vector<cv::Point2f>& points, cv::Size picture) {
   constexpr int kColumns = 6, kRows = 4;
   std::vector<bool> taken(kColumns * kRows);

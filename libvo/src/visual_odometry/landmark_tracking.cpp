@@ -7,7 +7,7 @@
 namespace vo {
 namespace {
 
-/// Where pixels lie on the image plane, without the distortion that the map has learned.
+/// The image-plane points of pixels, without the distortion that the map has learned.
 std::vector<ImagePoint> on_plane(const LandmarkMap& map, const Camera& camera,
                                  const std::vector<ImagePoint>& pixels) {
   std::vector<ImagePoint> points = undistort(camera, pixels);

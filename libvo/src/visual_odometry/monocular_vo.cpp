@@ -83,12 +83,12 @@ class MonocularVo::Impl {
 
  private:
   enum class State {
-    kLost,      ///< the last frame has nothing to follow
-    kStarting,  ///< points are followed, their depths not known yet
+    kLost,      ///< the last frame has nothing to track
+    kStarting,  ///< points are tracked, their depths not known yet
     kTracking,
   };
 
-  /// A scene that was lost, and the last that was seen of it.
+  /// A lost scene, and the last picture of it.
   struct BrokenOff {
     TrackedScene scene;
     KltPyramid picture;
@@ -101,14 +101,14 @@ class MonocularVo::Impl {
 
   /// Begins a scene with this frame.
   void start() {
-    const double radial = scene_.map.radial;  // that belongs to the camera
+    const double radial = scene_.map.radial;  // a property of the camera, kept
     scene_ = {.map = {.keyframes = {{now(), {}}}, .landmarks = {}, .radial = radial}};
     waiting_.clear();
     add_corners(scene_.map, grey_, *camera_, options_.corners);
     state_ = scene_.map.landmarks.size() >= options_.min_points ? State::kStarting : State::kLost;
   }
 
-  /// Writes down what there is.
+  /// Writes the scene so far into the track.
   void end() {
     write_broken_off();
     if (state_ == State::kStarting) give_up_waiting();
@@ -136,7 +136,7 @@ class MonocularVo::Impl {
     start();
   }
 
-  /// The frames that wait get no landmarks any more.
+  /// The waiting frames will get no landmarks.
   void give_up_waiting() {
     if (waiting_.empty()) return;
     const double seconds = time_s_[waiting_.back().frame] - time_s_[scene_.map.keyframes[0].frame];
@@ -158,7 +158,7 @@ class MonocularVo::Impl {
     if (followed < options_.min_points) return lose(TrackLoss::kTooFewCorners);
     waiting_.push_back(waiting_frame(scene_.map, now(), scene_options_.map.noise));
     if (waiting_.back().off > options_.start_parallax_deg * kRadPerDeg && begin()) return;
-    // Nothing but a turn to be seen until most went out of view, or for long: from here anew.
+    // Only a turn was seen until most points left the view, or for long: start again from here.
     constexpr double kLeastShare = 0.4;
     constexpr std::size_t kMostWaiting = 250;
     const double share = static_cast<double>(followed) / static_cast<double>(scene_.map.landmarks.size());
@@ -194,10 +194,10 @@ class MonocularVo::Impl {
   void track(const KltPyramid& pyramid) {
     const LandmarkPose pose = locate(scene_, now(), before_, pyramid, *camera_, scene_options_);
     if (pose.loss == TrackLoss::kNone) {
-      go_on(scene_, now(), pose.found, grey_, *camera_, scene_options_);
+      add_frame(scene_, now(), pose.found, grey_, *camera_, scene_options_);
     } else if (pose.loss == TrackLoss::kTooFewInliers && pose.landmarks < options_.min_landmarks &&
-               stands(scene_)) {
-      end();  // turned away from all it knew
+               is_still(scene_)) {
+      end();  // turned away from all known landmarks
       start();
       track_.frames.back().valid = true;
     } else {
@@ -206,8 +206,8 @@ class MonocularVo::Impl {
     }
   }
 
-  /// Takes up the scene that was lost where this frame, after one or more that were of no use, shows it
-  /// again; until a new one has begun, or the camera may be elsewhere. The frames in between stay lost.
+  /// Resumes the lost scene if this frame shows it again after one or more useless ones, unless a new scene
+  /// has begun or the camera may be elsewhere. The frames in between stay lost.
   bool resume(const KltPyramid& pyramid) {
     if (!broken_off_) return false;
     TrackedScene& scene = broken_off_->scene;
@@ -224,14 +224,14 @@ class MonocularVo::Impl {
     broken_off_.reset();
     waiting_.clear();
     state_ = State::kTracking;
-    go_on(scene_, now(), pose.found, grey_, *camera_, scene_options_);
+    add_frame(scene_, now(), pose.found, grey_, *camera_, scene_options_);
     return true;
   }
 
   MonocularVoOptions options_;
   SceneTrackingOptions scene_options_;
   cv::Size size_;                 // of the frames
-  std::optional<Camera> camera_;  // of the resized ones, known from the first
+  std::optional<Camera> camera_;  // of the resized frames, known from the first
   State state_ = State::kLost;
   std::vector<double> time_s_;
   DisplacementTrack track_;
@@ -242,7 +242,7 @@ class MonocularVo::Impl {
   std::vector<WaitingFrame> waiting_;
   std::optional<BrokenOff> broken_off_;
   int segment_ = 0;
-  bool begun_ = false;  // the first segment has been
+  bool begun_ = false;  // the first segment has begun
 };
 
 bool MonocularVoOptions::is_valid(std::string* error) const {

@@ -11,7 +11,7 @@
 namespace vo {
 namespace {
 
-/// Where a waiting frame is, none if it sees too few landmarks.
+/// The pose of a waiting frame; none if it sees too few landmarks.
 std::optional<Resection> found_by(const WaitingFrame& frame, const LandmarkMap& map, const Pose3& start,
                                   const LandmarkMapOptions& map_options, const SceneStartOptions& options) {
   std::vector<cv::Vec3d> points;
@@ -81,14 +81,14 @@ std::vector<SegmentFrame> begin_scene(LandmarkMap& map, const std::vector<Waitin
     }
     segment.push_back(frame);
   }
-  const double sigma = segment.back().sigma;  // the keyframe's was adjusted, and is hardly another
+  const double sigma = segment.back().sigma;  // adjusting the keyframe hardly changed it
   segment.push_back({.frame = last.frame, .before = AnchoredPose{1, {}}, .sigma = sigma});
   return segment;
 }
 
 bool stood_or_turned(const std::vector<WaitingFrame>& waiting, double seconds, double noise) {
   constexpr double kLeastSeconds = 0.5, kLeastTurn_rad = std::numbers::pi / 18;
-  // Cameras are known to a few percent, which looks like motion in a turn.
+  // Cameras are known to a few per cent, and the error looks like motion in a turn.
   constexpr double kShareOfTurn = 0.02;
   if (waiting.empty()) return false;
   const double turn_rad = angle_rad(waiting.back().rotation);

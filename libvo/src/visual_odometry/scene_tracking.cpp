@@ -7,30 +7,30 @@
 namespace vo {
 namespace {
 
-constexpr std::size_t kRemembered = 25;  // frames whose speeds the next may not exceed by far
+constexpr std::size_t kRemembered = 25;  // frames whose speeds the next may not exceed by much
 
-/// How many frames the last one was before this.
+/// How many frames ago the last one was.
 std::size_t frames_since(const TrackedScene& scene, std::size_t frame) {
   return frame - scene.frames.back().frame;
 }
 
-/// True if no camera moves so in so many frames.
+/// True if no camera moves this much in that many frames.
 bool is_jump(const TrackedScene& scene, const Pose3& to, std::size_t frames,
              const SceneTrackingOptions& options) {
   const auto count = static_cast<double>(frames);
   const Pose3 motion = compose(inverse(scene.pose), to);
   if (angle_rad(motion.rotation) > count * options.max_turn_rad) return true;
-  constexpr double kSmall = 0.1;  // of the median depth: a start from standing
+  constexpr double kSmall = 0.1;  // of the median depth: allows a start from rest
   const double displacement = cv::norm(motion.position) / count;
   return scene.speeds.size() >= kRemembered / 2 && displacement > kSmall * scene.median_depth &&
          displacement > options.max_speedup * median(scene.speeds);
 }
 
-/// Of the keyframes that the camera has gone a long way on from, or that are about to leave the window; or
-/// of all that are left.
+/// Finds the heights of the keyframes that are now far behind the camera or about to leave the window, or of
+/// all that are left.
 void measure_heights(TrackedScene& scene, bool all, const SceneTrackingOptions& options) {
-  // Of the median depth: bounce and sway hardly turn the direction of a long way; that of a scene that was
-  // soon lost may be off by a few degrees, which is better than no height at all.
+  // Of the median depth: bounce and sway hardly change the direction over a long distance. In a scene that is
+  // soon lost it may be a few degrees off, which is better than no height at all.
   constexpr double kLongWay = 0.5, kLeastWay = 0.25;
   const double enough = kLongWay * scene.median_depth;
   const std::vector<Keyframe>& keyframes = scene.map.keyframes;
@@ -38,7 +38,7 @@ void measure_heights(TrackedScene& scene, bool all, const SceneTrackingOptions& 
     const std::size_t keyframe = scene.heights.size();
     const double gone = cv::norm(scene.pose.position - keyframes[keyframe].pose.position);
     if (!all && gone < enough && keyframe + options.map.window > keyframes.size()) break;
-    const cv::Vec3d way = way_at(scene.map, keyframe, enough);
+    const cv::Vec3d way = direction_at(scene.map, keyframe, enough);
     scene.heights.emplace_back();
     if (cv::norm(way) >= kLeastWay * scene.median_depth)
       scene.heights.back() = keyframe_heights(scene.map, keyframe, way, options.ground);
@@ -79,8 +79,8 @@ LandmarkPose locate(TrackedScene& scene, std::size_t frame, const KltPyramid& la
   return pose;
 }
 
-void go_on(TrackedScene& scene, std::size_t frame, const Resection& found, const cv::Mat& grey,
-           const Camera& camera, const SceneTrackingOptions& options) {
+void add_frame(TrackedScene& scene, std::size_t frame, const Resection& found, const cv::Mat& grey,
+               const Camera& camera, const SceneTrackingOptions& options) {
   const std::size_t frames = frames_since(scene, frame);
   const Pose3 motion = compose(inverse(scene.pose), found.camera);
   for (std::size_t i = frame - frames + 1; i < frame; ++i) scene.frames.push_back({.frame = i});
@@ -120,8 +120,8 @@ void finish_heights(TrackedScene& scene, const SceneTrackingOptions& options) {
   measure_heights(scene, true, options);
 }
 
-bool stands(const TrackedScene& scene) {
-  constexpr double kStill = 1e-3;  // of the median depth, a frame: a centimetre at 10 m
+bool is_still(const TrackedScene& scene) {
+  constexpr double kStill = 1e-3;  // of the median depth, per frame: a centimetre at 10 m
   return !scene.speeds.empty() && median(scene.speeds) < kStill * scene.median_depth;
 }
 

@@ -20,7 +20,7 @@ std::optional<Pose3> pose_of(const SegmentFrame& frame, const std::vector<Keyfra
 
 double heading_change_rad(const cv::Matx33d& from, const cv::Matx33d& to) {
   const cv::Matx33d turn = from.t() * to;
-  return std::atan2(turn(0, 2), turn(2, 2));  // where the second looks, seen by the first
+  return std::atan2(turn(0, 2), turn(2, 2));  // the second's view direction in the first's axes
 }
 
 void write_segment(std::span<const SegmentFrame> frames, const std::vector<Keyframe>& keyframes, int segment,

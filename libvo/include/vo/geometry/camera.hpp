@@ -24,18 +24,19 @@ struct Camera {
   LensModel lens = LensModel::kOpenCv;
 };
 
-/// The undistorted camera of a horizontal field of view, square pixels, principal point in the middle (PVO
-/// 5.3(6)). Throws `std::invalid_argument` unless the size is positive and the angle in [10, 170] degrees.
+/// The undistorted camera with a given horizontal field of view, square pixels and central principal point
+/// (PVO 5.3(6)). Throws `std::invalid_argument` unless the size is positive and the angle in [10, 170]
+/// degrees.
 Camera camera_from_fov(int width_px, int height_px, double fov_deg);
 
-/// The calibrated camera, brought to the recording's size. That must have the shape it was calibrated at, to
-/// a pixel; a calibration that does not say its size (0x0) is taken to be of the recording's, whose middle
-/// must then be near its principal point; otherwise `vo::Error`. Without one, the camera of the field of
-/// view.
+/// The calibrated camera, scaled to the recording's size; without one, the camera of the field of view. The
+/// recording must have the calibration's aspect ratio, to a pixel. A calibration without a size (0x0) is
+/// assumed to have the recording's, whose middle must then be near the principal point. Throws `vo::Error`
+/// otherwise.
 Camera camera_of_recording(const std::optional<Camera>& calibrated, int width_px, int height_px,
                            double fov_deg);
 
-/// The same camera, its images resized to `width_px` columns.
+/// The same camera with images resized to `width_px` columns.
 Camera resized(const Camera& camera, int width_px);
 
 /// A point on the image plane at depth 1: x right, y down, undistorted.
@@ -44,13 +45,13 @@ struct ImagePoint {
   double y = 0;
 };
 
-/// Where pixels lie on the image plane. O(points).
+/// The image-plane points of pixels. O(points).
 std::vector<ImagePoint> undistort(const Camera& camera, const std::vector<ImagePoint>& pixels);
 
-/// Where a point of the image plane is seen through a lens of radial distortion: at (1 + radial r^2) of it.
+/// Where a point of the image plane is seen through a lens with radial distortion: (1 + radial r^2) times it.
 ImagePoint with_radial(const ImagePoint& at, double radial);
 
-/// Where a point that is seen so would be without; for |radial| r^2 up to a tenth.
+/// The inverse of `with_radial`; for |radial| r^2 up to a tenth.
 ImagePoint without_radial(const ImagePoint& seen, double radial);
 
 }  // namespace vo

@@ -8,10 +8,10 @@
 
 namespace vo {
 
-/// A point that several cameras see: the one nearest to their rays (Hartley and Zisserman 2004, 12.2, by rays
-/// in place of image errors). `cameras` and `seen`: one for each view, on the image plane. None if the rays
-/// are all but parallel or it lies behind a camera. Throws `std::invalid_argument` unless there are as many
-/// cameras as rays, two or more. O(views).
+/// The position of a point that several cameras see: the one nearest to their rays (Hartley and Zisserman
+/// 2004, 12.2, with rays instead of image errors). `cameras` and `seen`: one for each view, on the image
+/// plane. None if the rays are nearly parallel or it lies behind a camera. Throws `std::invalid_argument`
+/// unless there are as many cameras as rays, two or more. O(views).
 std::optional<cv::Vec3d> triangulate(std::span<const Pose3> cameras, std::span<const ImagePoint> seen);
 
 /// The ray to a point of the image plane, of length 1, in the world's axes.

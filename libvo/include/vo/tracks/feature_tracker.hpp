@@ -17,7 +17,7 @@ namespace vo {
 
 /// Settings of `FeatureTracker`.
 struct FeatureTrackerOptions {
-  int width_px = 640;  ///< wider frames are resized to it [PVO 5.1]; less was less accurate there
+  int width_px = 640;  ///< wider frames are resized to it [PVO 5.1]; PVO was less accurate with less
   SurfOptions surf;
   MatchOptions match{.max_displacement_px = 100};  ///< a turn of 250 degrees a second at 25 frames/s
   int window = 3;                                  ///< frames [PVO 5.3 (5)]
@@ -27,14 +27,14 @@ struct FeatureTrackerOptions {
 };
 
 /// From pictures to the motion of each frame: SURF -> matches with the frame before -> tracks over the window
-/// -> what they say together (PVO 4.2, 4.3). Keeps the last frame only.
+/// -> their joint motion (PVO 4.2, 4.3). Keeps the last frame only.
 class FeatureTracker {
  public:
   /// Throws `std::invalid_argument` for options out of range.
   explicit FeatureTracker(const FeatureTrackerOptions& options = {});
 
-  /// Takes the next frames, 8 bit grey or BGR, all of one size, and gives the motion of each; of the first
-  /// frame of all there is none. Frames are worked on in parallel, a few at a time pay; the outcome is the
+  /// Takes the next frames, 8 bit grey or BGR, all of one size, and returns the motion of each; the very
+  /// first frame has none. Frames are processed in parallel, so pass several at a time; the result is the
   /// same for any batches. Throws `vo::Error` if a calibrated camera is of another size.
   std::vector<FrameMotion> push(std::span<const cv::Mat> frames);
 

@@ -18,22 +18,22 @@ struct Match {
 
 /// Settings of `match_features`.
 struct MatchOptions {
-  double max_ratio = 0.8;          ///< of the nearest distance to the second nearest; 1: no ratio test
+  double max_ratio = 0.8;          ///< largest nearest over second nearest distance; 1: no ratio test
   bool mutual = true;              ///< `from` must be the nearest of `to` as well
-  double max_displacement_px = 0;  ///< points further apart are no candidates; 0: any distance
+  double max_displacement_px = 0;  ///< points further apart are not candidates; 0: any distance
 };
 
-/// The pairs of points with the nearest descriptors, among points of the same laplacian sign (Bay et al.
+/// The pairs of points with the nearest descriptors, among points of the same Laplacian sign (Bay et al.
 /// 2008, section 4.3), by index of `from`. Every point is in at most one pair if `mutual`.
 ///
 /// A nearest neighbour is a match if its distance is at most `max_ratio` times the second nearest's (Lowe
-/// 2004, section 7.1), and if no other `from` is nearer to it. Of equal distances the lowest index wins.
-/// Only candidates, that is points of the same sign and within `max_displacement_px`, count as second nearest
-/// or as rivals; a point with a single candidate passes the ratio test.
+/// 2004, section 7.1), and if no other `from` is nearer to it. Among equal distances the lowest index wins.
+/// Only candidates, i.e. points of the same sign within `max_displacement_px`, count as second nearest or as
+/// rivals; a point with a single candidate passes the ratio test.
 ///
 /// Throws `std::invalid_argument` if descriptor sizes differ while both have points, the ratio is not in (0,
 /// 1], or the displacement is negative. O(|from| |to| descriptor size), in parallel, with the
-/// same bytes for any number of threads; the displacement leaves out what is too far up or down.
+/// same bytes for any number of threads; points too far up or down are skipped.
 std::vector<Match> match_features(const Features& from, const Features& to, const MatchOptions& options = {});
 
 }  // namespace vo

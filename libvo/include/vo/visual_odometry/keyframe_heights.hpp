@@ -8,12 +8,12 @@
 
 namespace vo {
 
-/// The direction in which the camera left a keyframe, until it was `enough` away from it; if it did not get
-/// so far, the direction it came in, or the longest stretch there is. O(keyframes).
-cv::Vec3d way_at(const LandmarkMap& map, std::size_t keyframe, double enough);
+/// The direction in which the camera left a keyframe, up to a distance of `enough`; if it never got that far,
+/// the direction in which it arrived, or the longest displacement there is. O(keyframes).
+cv::Vec3d direction_at(const LandmarkMap& map, std::size_t keyframe, double enough);
 
-/// How far a keyframe is above each of the landmarks it sees that may be ground, see `heights_above`. Known
-/// only some keyframes later, when points that were new to it have a position, the nearest ground above all.
+/// How far a keyframe is above each landmark it sees that may be ground, see `heights_above`. Call it some
+/// keyframes later, when the points that were new to it, mainly the nearest ground, have a position.
 /// O(landmarks).
 std::vector<double> keyframe_heights(const LandmarkMap& map, std::size_t keyframe, const cv::Vec3d& way,
                                      const GroundHeightOptions& options = {});

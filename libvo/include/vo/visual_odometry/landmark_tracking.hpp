@@ -11,19 +11,19 @@
 
 namespace vo {
 
-/// Adds landmarks to follow where the picture has corners and none yet, as the last keyframe sees them.
+/// Adds landmarks at corners of the picture where there are none yet, as sightings of the last keyframe.
 /// `grey`: its picture. See `grid_corners`.
 void add_corners(LandmarkMap& map, const cv::Mat& grey, const Camera& camera,
                  const CornerGridOptions& options = {});
 
-/// Follows all landmarks that were seen in the picture before into the next; those not found are no longer
-/// followed. They are looked for where `predicted`, the next camera, would see them; without it, or without a
-/// position, the displacement of the last frame is assumed again. See `follow`.
+/// Tracks all landmarks seen in the picture before into the next; those not found are no longer tracked. The
+/// search begins where `predicted`, the next camera, would see them; without it, or without a position, at
+/// the last frame's displacement. See `follow`.
 void follow_landmarks(LandmarkMap& map, const KltPyramid& before, const KltPyramid& after,
                       const Camera& camera, const std::optional<Pose3>& predicted,
                       const KltOptions& options = {});
 
-/// How many are followed.
+/// The number of landmarks being tracked.
 std::size_t followed_landmarks(const LandmarkMap& map);
 
 }  // namespace vo

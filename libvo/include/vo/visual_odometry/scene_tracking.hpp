@@ -15,7 +15,7 @@
 
 namespace vo {
 
-/// A scene and a camera that is followed through it.
+/// A scene and a camera that is tracked through it.
 struct TrackedScene {
   LandmarkMap map;
   std::vector<SegmentFrame> frames;  ///< from the first keyframe to the last frame that has a pose
@@ -24,10 +24,10 @@ struct TrackedScene {
   std::vector<double> speeds;        ///< displacements of the last frames
   double median_depth = 1;           ///< of the landmarks, at the last keyframe
   std::size_t keyframe_landmarks = 0;
-  std::vector<std::vector<double>> heights;  ///< of keyframes above what may be ground, so far
+  std::vector<std::vector<double>> heights;  ///< of the keyframes so far, above what may be ground
 };
 
-/// Settings of the functions below; `MonocularVoOptions` says what they mean.
+/// Settings of the functions below, described in `MonocularVoOptions`.
 struct SceneTrackingOptions {
   LandmarkMapOptions map;
   LandmarkPoseOptions pose;
@@ -40,26 +40,26 @@ struct SceneTrackingOptions {
   double max_speedup = 5;
 };
 
-/// Follows the landmarks from the picture of a scene's last frame to that of a later one, and finds the
-/// camera by them; a jump counts as lost. If it is lost, the scene is as it was. O(landmarks).
+/// Tracks the landmarks from the picture of a scene's last frame to that of a later one, and finds the
+/// camera's pose from them; a jump counts as lost. If lost, the scene is unchanged. O(landmarks).
 LandmarkPose locate(TrackedScene& scene, std::size_t frame, const KltPyramid& last, const KltPyramid& next,
                     const Camera& camera, const SceneTrackingOptions& options);
 
-/// Adds a located frame to the scene; frames left out since the last one have no pose. Makes it a
-/// keyframe where the camera has moved on, or sees too little of what it knew: adds landmarks, and adjusts
-/// the last ones. `grey`: its picture.
-void go_on(TrackedScene& scene, std::size_t frame, const Resection& found, const cv::Mat& grey,
-           const Camera& camera, const SceneTrackingOptions& options);
+/// Adds a located frame to the scene; frames skipped since the last one have no pose. Makes it a
+/// keyframe if the camera has moved far enough or sees too few known landmarks: adds landmarks and adjusts
+/// the last keyframes. `grey`: its picture.
+void add_frame(TrackedScene& scene, std::size_t frame, const Resection& found, const cv::Mat& grey,
+               const Camera& camera, const SceneTrackingOptions& options);
 
-/// Prepares for the frames after a keyframe, which is the last frame: forgets landmarks that no longer
-/// matter, adds others.
+/// Prepares for the frames after a keyframe, which is the last frame: forgets landmarks that no longer matter
+/// and adds others.
 void renew_landmarks(TrackedScene& scene, const cv::Mat& grey, const Camera& camera,
                      const SceneTrackingOptions& options);
 
-/// Finds how high the remaining keyframes are above the ground, when the scene ends.
+/// At the end of a scene, finds how high the remaining keyframes are above the ground.
 void finish_heights(TrackedScene& scene, const SceneTrackingOptions& options);
 
 /// True if the camera hardly moved in the last frames.
-bool stands(const TrackedScene& scene);
+bool is_still(const TrackedScene& scene);
 
 }  // namespace vo

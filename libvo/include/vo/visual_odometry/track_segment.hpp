@@ -9,7 +9,7 @@
 
 namespace vo {
 
-/// A pose relative to a keyframe, so that it moves with the keyframe when that is adjusted.
+/// A pose relative to a keyframe, which follows the keyframe's adjustments.
 struct AnchoredPose {
   std::size_t keyframe = 0;
   Pose3 in_keyframe;  ///< keyframe_from_camera
@@ -24,13 +24,13 @@ struct SegmentFrame {
 };
 
 /// Writes the frames of a segment into the track once its keyframes are final: the pose of a frame between
-/// two keyframes is interpolated between what both say, by its distance in frames. The first frame of a
-/// segment keeps what the track has of it, if it is part of the segment before as well. `frames`:
-/// consecutive; all in the track.
+/// two keyframes is interpolated between the poses from both, by its distance in frames. The first frame of a
+/// segment keeps its entry in the track if it also belongs to the segment before. `frames`: consecutive, all
+/// in the track.
 void write_segment(std::span<const SegmentFrame> frames, const std::vector<Keyframe>& keyframes, int segment,
                    DisplacementTrack& track);
 
-/// Change of heading, to the right, of a camera that turned.
+/// Change of heading of a camera, to the right.
 double heading_change_rad(const cv::Matx33d& from, const cv::Matx33d& to);
 
 }  // namespace vo

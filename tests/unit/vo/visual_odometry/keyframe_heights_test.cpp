@@ -25,22 +25,22 @@ vo::LandmarkMap round_a_corner() {
 
 TEST(WayAt, IsTheOneThatTheCameraWentOn) {
   const vo::LandmarkMap map = round_a_corner();
-  EXPECT_EQ(vo::way_at(map, 0, 3), cv::Vec3d(0, 0, 4));
-  EXPECT_EQ(vo::way_at(map, 3, 3), cv::Vec3d(4, 0, 0));
+  EXPECT_EQ(vo::direction_at(map, 0, 3), cv::Vec3d(0, 0, 4));
+  EXPECT_EQ(vo::direction_at(map, 3, 3), cv::Vec3d(4, 0, 0));
 }
 
 TEST(WayAt, IsTheOneThatItCameWhereItWentNoFurther) {
   const vo::LandmarkMap map = round_a_corner();
-  EXPECT_EQ(vo::way_at(map, 6, 3), cv::Vec3d(4, 0, 0));
-  EXPECT_EQ(vo::way_at(map, 5, 3), cv::Vec3d(4, 0, 0));
+  EXPECT_EQ(vo::direction_at(map, 6, 3), cv::Vec3d(4, 0, 0));
+  EXPECT_EQ(vo::direction_at(map, 5, 3), cv::Vec3d(4, 0, 0));
 }
 
 TEST(WayAt, IsTheLongestWhereNoneIsEnough) {
   const vo::LandmarkMap map = round_a_corner();
-  EXPECT_EQ(vo::way_at(map, 6, 100), cv::Vec3d(6, 0, 6));
+  EXPECT_EQ(vo::direction_at(map, 6, 100), cv::Vec3d(6, 0, 6));
   vo::LandmarkMap one;
   one.keyframes.push_back({0, {}});
-  EXPECT_EQ(vo::way_at(one, 0, 1), cv::Vec3d(0, 0, 0));
+  EXPECT_EQ(vo::direction_at(one, 0, 1), cv::Vec3d(0, 0, 0));
 }
 
 TEST(KeyframeHeights, AreThoseAboveWhatTheKeyframeSaw) {

@@ -54,7 +54,7 @@ TEST(SceneTracking, FindsTheCameraInALaterFrame) {
     ASSERT_EQ(pose.loss, TrackLoss::kNone);
     // Depths from 0.3 m of way are good to some percent, and so is a way of as much.
     EXPECT_NEAR(pose.found.camera.position[2], z_m, 0.02);
-    vo::go_on(tracked, 3 + frames, pose.found, view(z_m), camera(), options());
+    vo::add_frame(tracked, 3 + frames, pose.found, view(z_m), camera(), options());
     EXPECT_EQ(tracked.frames.size(), 4 + frames);
     for (std::size_t i = 0; i < tracked.frames.size(); ++i) {
       EXPECT_EQ(tracked.frames[i].frame, i);
@@ -95,7 +95,7 @@ TEST(SceneTracking, MeasuresTheHeightOfEveryKeyframe) {
     const vo::LandmarkPose pose = vo::locate(tracked, frame, vo::klt_pyramid(view(z_m)),
                                              vo::klt_pyramid(view(z_m + 0.1)), camera(), options());
     ASSERT_EQ(pose.loss, TrackLoss::kNone) << frame;
-    vo::go_on(tracked, frame, pose.found, view(z_m + 0.1), camera(), options());
+    vo::add_frame(tracked, frame, pose.found, view(z_m + 0.1), camera(), options());
   }
   EXPECT_LT(tracked.heights.size(), tracked.map.keyframes.size());  // the last wait for what comes
   vo::finish_heights(tracked, options());
@@ -108,11 +108,11 @@ TEST(SceneTracking, MeasuresTheHeightOfEveryKeyframe) {
 
 TEST(SceneTracking, StandsIfItHardlyMoved) {
   vo::TrackedScene tracked{.median_depth = 10};
-  EXPECT_FALSE(vo::stands(tracked));  // nothing is known
+  EXPECT_FALSE(vo::is_still(tracked));  // nothing is known
   tracked.speeds = {0.001, 0.002, 0.3};
-  EXPECT_TRUE(vo::stands(tracked));
+  EXPECT_TRUE(vo::is_still(tracked));
   tracked.speeds = {0.001, 0.02, 0.3};
-  EXPECT_FALSE(vo::stands(tracked));
+  EXPECT_FALSE(vo::is_still(tracked));
 }
 
 }  // namespace
