@@ -16,7 +16,7 @@ namespace {
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Sums over blocks of `pool` x `pool` pixels, smaller at the right and lower border; a row for each image.
+/// Sums over blocks of `pool` x `pool` pixels, smaller at the right and lower borders; a row for each image.
 Rows pooled(const vo::ImageStack& images, std::size_t first, std::size_t count, std::size_t pool) {
   const auto width = static_cast<std::size_t>(images.width), height = static_cast<std::size_t>(images.height);
   const std::size_t across = (width + pool - 1) / pool, down = (height + pool - 1) / pool;
@@ -49,7 +49,7 @@ std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t of) {
 struct Components {
   std::size_t pool = 1;
   Eigen::RowVectorXf mean;
-  Eigen::MatrixXf axes;  ///< a column for each
+  Eigen::MatrixXf axes;  ///< one column for each
 };
 
 Components principal_components(const vo::ImageStack& images, const CandidateOptions& options) {
@@ -77,14 +77,14 @@ Rows project(const vo::ImageStack& images, const Components& components) {
   return projected;
 }
 
-/// For each query the indices of its nearest references, `count` of them.
+/// For each query, the indices of its `count` nearest references.
 std::vector<std::size_t> nearest(Rows& queries, Rows& references, std::size_t count,
                                  const CandidateOptions& options) {
   const auto matrix = [](Rows& rows, std::size_t first, std::size_t number) {
     return flann::Matrix<float>(rows.row(static_cast<Eigen::Index>(first)).data(), number,
                                 static_cast<std::size_t>(rows.cols()));
   };
-  // The single tree: the randomised ones cannot be seeded, so give another answer every time.
+  // The single tree: the randomised ones cannot be seeded and give a different result every time.
   flann::KDTreeSingleIndex<flann::L2<float>> index(
       matrix(references, 0, static_cast<std::size_t>(references.rows())), flann::KDTreeSingleIndexParams());
   index.buildIndex();
@@ -124,7 +124,7 @@ std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::Ima
   const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(options.shortlist), total);
   const std::vector<std::size_t> shortlists = nearest(query_rows, reference_rows, count, options);
 
-  // Each run of queries votes for blocks of where its first query is, were the walks at one pace. Votes for
+  // Each run of queries votes for the block where its first query would be at equal pace. Votes for
   // neighbouring blocks count together, as a place may lie at their border.
   const auto run = static_cast<std::ptrdiff_t>(options.run),
              margin = static_cast<std::ptrdiff_t>(options.margin);
@@ -147,7 +147,7 @@ std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::Ima
     if (ranked.size() > static_cast<std::size_t>(options.stretches))
       ranked.resize(static_cast<std::size_t>(options.stretches));
     for (const auto& [number, block] : ranked) {
-      // The run's first query lies in [(block - 2) * run, block * run), its last a run further on.
+      // The run's first query lies in [(block - 2) * run, block * run), its last one run later.
       const std::ptrdiff_t begin = (block - 2) * run - margin, end = (block + 1) * run + margin;
       for (std::ptrdiff_t r = std::max<std::ptrdiff_t>(0, begin);
            r < std::min(end, static_cast<std::ptrdiff_t>(total)); ++r)

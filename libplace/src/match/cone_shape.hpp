@@ -24,9 +24,9 @@ class ConeShape {
   };
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
-  /// How many of a pair's rows lie inside the queries and touch the reference.
+  /// The number of a pair's rows that lie inside the queries and touch the reference.
   [[nodiscard]] int terms(std::size_t query, std::size_t reference) const;
-  /// Whether so many are enough to be looked at.
+  /// Whether that many are enough.
   [[nodiscard]] bool enough(int terms) const { return terms >= min_terms_; }
   /// 1 / sqrt(terms * length).
   [[nodiscard]] float factor(int terms) const { return factors_[static_cast<std::size_t>(terms)]; }

@@ -11,8 +11,8 @@
 namespace place {
 namespace {
 
-/// Below this share of the mean square, a deviation is rounding and taken as none (float inputs carry 24
-/// bits).
+/// Below this share of the mean square, a deviation is rounding error and counts as none (float inputs carry
+/// 24 bits).
 constexpr double kRounding = 1e-12;
 
 struct Moments {
@@ -39,7 +39,7 @@ struct Moments {
   }
 };
 
-/// Eight sums of every eighth value, which compilers turn into vectors, and those added up.
+/// Eight sums of every eighth value, which compilers vectorise, then their total.
 Moments moments_of(std::span<const float> values) {
   constexpr std::size_t kLanes = 8;
   std::array<double, kLanes> sum{}, square{};
@@ -55,8 +55,8 @@ Moments moments_of(std::span<const float> values) {
   return {std::accumulate(sum.begin(), sum.end(), 0.0), std::accumulate(square.begin(), square.end(), 0.0)};
 }
 
-/// A row that begins at a multiple of kAlign. Running sums begin anew at every such multiple, so
-/// that a value does not depend on where the row begins.
+/// A row that begins at a multiple of kAlign. Running sums restart at every such multiple, so that a value
+/// does not depend on where the row begins.
 void enhance_locally(std::span<float> row, std::size_t half) {
   const std::vector<float> raw(row.begin(), row.end());
   Moments window;
@@ -153,7 +153,7 @@ void ContrastEnhancer::enhance(const Costs& costs) const {
     });
     return;
   }
-  constexpr std::size_t kStretch = 128;  // references whose costs with some thousand queries fit a cache
+  constexpr std::size_t kStretch = 128;  // references whose costs with a few thousand queries fit a cache
   vo::parallel_for((costs.references + kStretch - 1) / kStretch, [&](std::size_t i) {
     const std::size_t begin = i * kStretch, count = std::min(kStretch, costs.references - begin);
     std::array<double, kStretch> mean{}, inverse{};  // first the sums and the sums of squares
@@ -183,7 +183,7 @@ void ContrastEnhancer::enhance(const Costs& costs) const {
 CostRange ContrastEnhancer::range() const {
   if (queries_ == 0 || references_ == 0) return {};
   if (options_.method == Enhancement::kStandardise) {
-    // No value of n can be further than sqrt(n - 1) deviations from their mean; one more for rounding.
+    // None of n values can be further than sqrt(n - 1) deviations from their mean; one more for rounding.
     const auto queries = static_cast<double>(queries_), references = static_cast<double>(references_);
     const double share = queries / (queries + options_.prior_queries);
     // With a prior, |x - m| / sqrt(share * variance) and (1 - share) |m| / sqrt(1 - share), where the mean m

@@ -18,7 +18,7 @@ void CostCache::keep(const ConstCosts& part) {
   if (count > size_ - used_) return;
   std::uint16_t* const kept_above = memory_.get() + used_;
   Part kept{part.first_reference, part.references, std::vector<std::uint32_t>(part.queries), kept_above};
-  constexpr float kExact = 1 << 20;  // a float of so many units still tells which of them it is
+  constexpr float kExact = 1 << 20;  // floats still represent every multiple of the unit up to this
   const float per_unit = 1 / source_.unit();
   const auto units = [&](float cost) { return static_cast<std::int32_t>(cost * per_unit + 0.5F); };
   std::atomic<bool> fits = true;

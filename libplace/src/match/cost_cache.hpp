@@ -10,17 +10,17 @@
 
 namespace place {
 
-/// Costs that are asked for twice: as many as there is room for are kept, the others are made again.
+/// Costs that are needed twice: as many as there is room for are kept, the others are computed again.
 ///
-/// Costs are whole multiples of a unit, so what a row has above its least in a part fits 16 bits: at most two
-/// deviations a pixel for images of mean 0 and deviation 1, 65,536 units for 2048 pixels. Exact; a part of
-/// which that is not so (larger images may have one) is not kept.
+/// Costs are whole multiples of a unit, so a row's excess over its least cost in a part fits 16 bits: at most
+/// two deviations per pixel for images of mean 0 and deviation 1, 65,536 units for 2048 pixels. Exact; a part
+/// that does not fit (possible with larger images) is not kept.
 class CostCache {
  public:
   /// Keeps `bytes` at most. `source` is kept by reference.
   CostCache(const CostSource& source, std::size_t bytes);
 
-  /// Keeps a part that `source` gave, of all queries and of references that were not kept yet. In parallel.
+  /// Keeps a part from `source`, with all queries and references not kept yet. In parallel.
   void keep(const ConstCosts& part);
 
   /// Writes the costs of all queries and any references, kept or not. In parallel.
@@ -30,7 +30,7 @@ class CostCache {
   struct Part {
     std::size_t first, count;
     std::vector<std::uint32_t> least;  ///< of each row, in units
-    const std::uint16_t* above;        ///< of each row its least, row by row; in `memory_`
+    const std::uint16_t* above;        ///< over the row's least, row by row; in `memory_`
   };
 
   const CostSource& source_;

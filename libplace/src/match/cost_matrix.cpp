@@ -43,7 +43,7 @@ vo::ImageStack turned(const vo::ImageStack& images) {
   return out;
 }
 
-/// The mean sum of absolute differences between different images, of up to 64 evenly spaced ones.
+/// The mean sum of absolute differences between different images, among up to 64 evenly spaced ones.
 double mean_difference(const vo::ImageStack& images) {
   constexpr std::size_t kSample = 64;
   const std::size_t count = std::min(kSample, images.size()), size = images.image_size();
@@ -54,7 +54,7 @@ double mean_difference(const vo::ImageStack& images) {
   std::vector<float> sums(count * count);
   const kernels::ByteImages all{sample.pixels.data(), count};
   kernels::absolute_difference()(all, all, {size, size}, {1, sums.data(), count});
-  double sum = 0;  // that of an image with itself is 0
+  double sum = 0;  // an image adds 0 with itself
   for (const float of_pair : sums) sum += static_cast<double>(of_pair);
   return sum / static_cast<double>(count * (count - 1));
 }
@@ -100,7 +100,7 @@ void ThumbnailCosts::compute(const Costs& block) const {
                        &references = shifts_.empty() ? *references_ : turned_references_;
   const std::uint8_t* query_bytes = queries.pixels.data() + block.first_query * pixels;
   const std::uint8_t* reference_bytes = references.pixels.data() + block.first_reference * pixels;
-  // Bands of about one size, a multiple of what kernels take together.
+  // Bands of similar size, a multiple of what kernels process together.
   constexpr std::size_t kTogether = 12;
   const std::size_t bands = blocks_of(band_queries(pixels), block.queries);
   const std::size_t band = blocks_of(kTogether, blocks_of(bands, block.queries)) * kTogether;

@@ -15,7 +15,7 @@ CostMatrix make_cost_matrix(std::size_t queries, std::size_t references) {
 }
 
 CostRange range_of(std::span<const float> costs) {
-  // Eight of each at a time, which compilers turn into vectors.
+  // Eight of each at a time, which compilers vectorise.
   constexpr std::size_t kLanes = 8;
   if (costs.empty()) return {};
   std::array<double, kLanes> sums{};

@@ -12,7 +12,7 @@
 namespace place {
 namespace {
 
-constexpr double kShiftWidth_px = 64;  // of the picture that shifts are given in
+constexpr double kShiftWidth_px = 64;  // width of the picture that shifts refer to
 
 int shift_in_columns(const DescriptorTraits& traits, std::optional<int> max_shift_px) {
   if (!max_shift_px) return traits.max_shift;

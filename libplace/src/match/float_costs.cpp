@@ -18,7 +18,7 @@ constexpr std::size_t parts(std::size_t count, std::size_t size) {
   return (count + size - 1) / size;
 }
 
-/// Rows [first, first + count) interleaved, with zeros for those that are missing of `lanes`.
+/// Rows [first, first + count) interleaved, padded with zero rows to `lanes`.
 void interleave(const FloatRows& rows, std::size_t first, std::size_t count, std::size_t lanes, float* to) {
   std::fill_n(to, lanes * rows.width, 0.0F);
   for (std::size_t i = 0; i < count; ++i) {
@@ -27,7 +27,7 @@ void interleave(const FloatRows& rows, std::size_t first, std::size_t count, std
   }
 }
 
-/// Of each row: its length as the metric sees it.
+/// The length of each row in the metric.
 std::vector<double> lengths_of(const FloatRows& rows, Metric metric) {
   std::vector<double> lengths(rows.size());
   vo::parallel_for(rows.size(), [&](std::size_t i) {
@@ -37,7 +37,7 @@ std::vector<double> lengths_of(const FloatRows& rows, Metric metric) {
       squares += static_cast<double>(value) * static_cast<double>(value);
     }
     constexpr double kMost =
-        std::numeric_limits<float>::max() / 8.0;  // the difference of two has four times it
+        std::numeric_limits<float>::max() / 8.0;  // the difference of two rows can have four times that
     lengths[i] = squares < kMost
                      ? (metric == Metric::kL1 ? sum / static_cast<double>(rows.width) : std::sqrt(squares))
                      : std::numeric_limits<double>::infinity();

@@ -9,7 +9,7 @@
 namespace place {
 namespace {
 
-/// Where the keyframes of each traverse lie on each other one: at [of][on].
+/// The places of each traverse's keyframes on every other one: at [of][on].
 std::vector<std::vector<TraverseMap>> maps_between(const Route& route, const RouteMatchingOptions& options,
                                                    std::vector<std::string>& warnings) {
   const std::size_t count = route.traverses.size();
@@ -41,7 +41,7 @@ std::vector<std::vector<TraverseMap>> maps_between(const Route& route, const Rou
   return maps;
 }
 
-/// A map in terms of what was compared: from columns to columns.
+/// A map between compared columns instead of keyframes.
 TraverseMap between_columns(const TraverseMap& map, const std::vector<std::size_t>& from,
                             const std::vector<std::size_t>& to) {
   TraverseMap result(from.size());

@@ -8,9 +8,9 @@
 
 namespace place {
 
-/// A walk's costs against each traverse of a route (`costs`), joined with what the others say of its places
-/// (`fuse_traverses`). Where traverses lie on each other is found as a walk is found. `warnings`: gets a line
-/// for each two that share no place.
+/// A walk's costs against each traverse of a route (`costs`), joined with the others' costs for its places
+/// (`fuse_traverses`). Traverses are found on each other as a walk is. `warnings`: gets a line for each pair
+/// that shares no place.
 std::vector<CostMatrix> joined_traverses(const Route& route, const std::vector<TraverseCosts>& costs,
                                          const RouteMatchingOptions& options,
                                          std::vector<std::string>& warnings);

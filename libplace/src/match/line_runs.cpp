@@ -8,7 +8,7 @@
 namespace place {
 namespace {
 
-constexpr int kLargestStep = 4;  // of a running sum; each takes its memory, and steeper lines are rare
+constexpr int kLargestStep = 4;  // of a running sum; each step takes memory, and steeper lines are rare
 
 /// One line's runs of one step; `ring` is the step itself.
 std::vector<LineRun> runs_of_step(const SearchLine& line, int first, int last, int step) {

@@ -24,7 +24,7 @@ Place& place_in(Match& match) {
 
 bool read_index(std::string_view cell, std::int64_t& index) {
   const std::optional<double> number = vo::parse_number(cell);
-  constexpr double kExact = 9e15;  // whole numbers that a double holds
+  constexpr double kExact = 9e15;  // a double holds whole numbers up to this
   if (!number || *number < 0 || *number != std::floor(*number) || *number > kExact) return false;
   index = static_cast<std::int64_t>(*number);
   return true;

@@ -35,8 +35,8 @@ Statistics statistics(const Values& values) {
   return {mean, std::sqrt(squares / (count - 1))};
 }
 
-/// The reference offsets of a line's terms, for each velocity. In double precision as the original: at length
-/// 50 three of them differ from exact arithmetic.
+/// The reference offsets of a line's terms, for each velocity. In double precision like the original: at
+/// length 50 three of them differ from exact arithmetic.
 std::vector<std::vector<std::size_t>> line_offsets(int length, const Options& options) {
   std::vector<std::vector<std::size_t>> lines;
   const int terms = options.quirks.one_term_too_many ? length + 1 : length;
@@ -138,7 +138,7 @@ std::vector<Match> find_matches(const CostMatrix& enhanced, const Options& optio
           const std::size_t r = start + lines[line][k];
           sum += r < enhanced.references ? enhanced.at(q - half + k, r) : kInfinity;
         }
-        if (sum < best_from[start]) {  // false for NaN, which every minimum of the original ignores
+        if (sum < best_from[start]) {  // false for NaN, which every minimum in the original ignores
           best_from[start] = sum;
           best_line[start] = line;
         }

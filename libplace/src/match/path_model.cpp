@@ -9,7 +9,7 @@ namespace place {
 PathModel::PathModel(const PathSearchOptions& options, const SequenceSearchOptions& sequence,
                      std::vector<Stretch> references, std::size_t count)
     : references_(std::move(references)), count_(count) {
-  constexpr double kMostOften = 0.1;  // with sequences of one keyframe
+  constexpr double kMostOften = 0.1;  // for sequences of one keyframe
   leave_ = kMostOften / sequence.length;
   const double range = sequence.search_range_rad, quarter = std::numbers::pi / 4;
   const double low = sequence.v_min.value_or(std::tan(quarter - range));
@@ -19,7 +19,7 @@ PathModel::PathModel(const PathSearchOptions& options, const SequenceSearchOptio
   const double unit_deviation = std::hypot(kSampling, std::min(kWidest, (high - low) / 2));
   const std::vector<double> even{1};
   for (const double relative : options.steps.empty() ? even : options.steps) {
-    // Steps past three deviations and a bit are left out, so that a step of 1 has 0 .. 4.
+    // Steps a little past three deviations are left out, so that a step of 1 has 0 .. 4.
     constexpr double kDeviations = 3.2;
     const double step = relative * middle;
     const double deviation = unit_deviation * std::sqrt(std::max(1.0, step));
@@ -54,7 +54,7 @@ void PathModel::forward(std::size_t query, const Row& before, std::span<const fl
   const std::size_t widest = steps.first + steps.probability.size() - 1;
   const double off = before.off * before.scale;
   const double comes_back = leave_ * off / static_cast<double>(count_);
-  // A reference takes from those before it: the taps turned round.
+  // A reference takes from those before it, so the taps are reversed.
   std::vector<float> taps(steps.probability.size());
   for (std::size_t k = 0; k < taps.size(); ++k)
     taps[k] = static_cast<float>((1 - leave_) * before.scale) * steps.probability[taps.size() - 1 - k];
@@ -106,7 +106,7 @@ void PathModel::backward(std::size_t query, const Row& after, std::span<const fl
       float sum = leaves;
       for (std::size_t k = 0; k < taps.size(); ++k) {
         const std::size_t to = r + steps.first + k;
-        // Past the end is off the route for certain, not with leave_.
+        // Past the end is certainly off the route, not with probability leave_.
         sum += to < end ? taps[k] * work[to] : static_cast<float>((1 - leave_) * off) * steps.probability[k];
       }
       row.on[r] = sum;

@@ -11,8 +11,8 @@
 
 namespace place {
 
-/// The transitions and the likelihoods of `search_path`, applied to a row at a time. Rows are of `references`
-/// values; what a row is multiplied by as a whole does not matter, so a factor rides along.
+/// The transitions and likelihoods of `search_path`, applied to one row at a time. A row has `references`
+/// values; its overall factor does not matter, so each row carries one.
 class PathModel {
  public:
   /// Both options must be valid.
@@ -23,17 +23,17 @@ class PathModel {
   struct Row {
     std::vector<float> on;
     double off = 0;
-    double scale = 1;  ///< both are to be multiplied by this
+    double scale = 1;  ///< multiplies both
   };
 
   /// How much more probable each pair of a query is on the route than off it.
   void likelihoods(std::span<const float> costs, std::span<float> out) const;
 
-  /// The first query's, before anything is known.
+  /// The first query's prior.
   void begin(std::span<const float> likelihoods, Row& row) const;
-  /// From a query's row to the next one's.
+  /// From a query's row to the next query's.
   void forward(std::size_t query, const Row& before, std::span<const float> likelihoods, Row& row) const;
-  /// From a query's row to that of the one before; `work` holds a row.
+  /// From a query's row to the previous query's; `work` holds a row.
   void backward(std::size_t query, const Row& after, std::span<const float> likelihoods, Row& row,
                 std::vector<float>& work) const;
 
@@ -50,8 +50,8 @@ class PathModel {
   const kernels::PathKernels& kernels_ = kernels::path_kernels();
   std::vector<Stretch> references_;
   std::size_t count_;
-  std::vector<Steps> steps_;  // by query, or one for all
-  double leave_;              // probability of leaving the route, and of coming back, at a query
+  std::vector<Steps> steps_;  // for each query, or one for all
+  double leave_;              // probability of leaving the route, and of returning, at a query
 };
 
 }  // namespace place

@@ -23,7 +23,7 @@ void check_long_enough(const Traverse& traverse, int length) {
                   "a reference at least as long as the sequence; walk further or lower sequence-length");
 }
 
-/// Matches of the original's search, whose score is smaller for surer ones and lies in [0, 1].
+/// Matches of the original's search, whose scores lie in [0, 1] and are lower for surer ones.
 std::vector<SureMatch> search_the_original_way(const SampledWalk& sampled, const Traverse& traverse,
                                                std::size_t index, openseqslam::Options options, int length,
                                                const SearchCallback& callback) {
@@ -51,8 +51,7 @@ std::vector<SureMatch> search_the_original_way(const SampledWalk& sampled, const
   return matches;
 }
 
-/// How many keyframes of the traverse the walk's displacement between its own is worth; empty where either
-/// has none.
+/// The walk's displacement between its keyframes, in keyframes of the traverse; empty where either has none.
 std::vector<double> keyframe_steps(const SampledWalk& sampled, const Traverse& traverse) {
   constexpr double kLongestStep = 1000;  // `PathSearchOptions::is_valid`
   const double there = traverse.keyframes.back().displacement - traverse.keyframes.front().displacement;
@@ -78,7 +77,7 @@ std::vector<std::size_t> gaps_between(const std::vector<std::size_t>& columns,
   return among;
 }
 
-/// Metres of the way between a keyframe's neighbours, for each keyframe between them; none unless surveyed.
+/// Metres along the route between a keyframe's neighbours, per keyframe; none unless surveyed.
 std::optional<double> local_spacing_m(const Traverse& traverse, std::size_t keyframe) {
   const std::size_t before = keyframe - std::min<std::size_t>(keyframe, 1);
   const std::size_t after = std::min(traverse.keyframes.size() - 1, keyframe + 1);
@@ -97,14 +96,14 @@ Place place_of(const Traverse& traverse, std::size_t keyframe) {
           .pose = k.pose};
 }
 
-/// Whether a match is taken, by what is known of it.
+/// Whether a match is accepted.
 bool is_accepted(const Match& match, const RouteMatchingOptions& options) {
-  constexpr double kScore = 0.7;  // of lines, in deviations: for walks too short for probabilities
+  constexpr double kScore = 0.7;  // for lines, in deviations: for walks too short for probabilities
   if (options.accept_score || !match.probability) return match.score >= options.accept_score.value_or(kScore);
   return *match.probability >= options.accept_probability;
 }
 
-/// Puts a traverse's matches in where they are the surest so far; returns how many were.
+/// Takes a traverse's matches where they are the surest so far; returns how many.
 std::size_t take_surest(const std::vector<SureMatch>& found, const Traverse& traverse,
                         const std::vector<std::size_t>& columns, int length,
                         const RouteMatchingOptions& options, std::vector<Match>& matches) {

@@ -10,7 +10,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 float least_of(std::span<const float> row) {
-  // Sixteen minima side by side, which the compiler turns into vectors; the least is the same in any order.
+  // Sixteen minima side by side, which the compiler vectorises; the least is the same in any order.
   constexpr std::size_t kSide = 16;
   std::array<float, kSide> least;
   least.fill(kInfinity);

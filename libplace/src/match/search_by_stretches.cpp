@@ -13,8 +13,8 @@ CostMatrix part_of(const CostMatrix& whole, Stretch queries, Stretch references)
   return part;
 }
 
-/// Joins what two stretches of the reference have for a query. `elsewhere` is the cost that a match's score
-/// is the difference to.
+/// Joins the matches of two stretches of the reference for a query. A match's score is the difference to the
+/// cost `elsewhere`.
 SequenceMatch join(const SequenceMatch& a, const SequenceMatch& b, std::size_t window) {
   if (!a.reference) return b;
   if (!b.reference) return a;

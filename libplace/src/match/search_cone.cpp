@@ -12,14 +12,14 @@
 namespace place {
 namespace {
 
-/// References [begin, end) that so many votes lie in the cones of.
+/// References [begin, end) whose cones contain this many votes.
 struct Votes {
   std::size_t begin, end;
   int count;
 };
 
-/// The runs of references that have votes, in order: a query's single best match lies in the cones of a
-/// stretch of references.
+/// The runs of references with votes, in order: a query's single best match lies in the cones of a stretch of
+/// references.
 std::vector<Votes> votes_for(const ConeShape& shape, const std::vector<RowMinimum>& best, std::size_t query,
                              std::size_t references) {
   std::vector<std::pair<std::size_t, int>> turns;

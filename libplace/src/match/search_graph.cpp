@@ -15,13 +15,14 @@
 namespace place {
 namespace {
 
-/// A node that was reached: what the cheapest path to it costs, and the reference that path came from.
+/// A reached node: the cost of the cheapest path to it, and the reference that path came from.
 struct Reached {
   double path_cost = 0;
   std::size_t from = 0;
 };
 
-/// An entry of the frontier. The cheapest comes first; of equals the later query, then the lower reference.
+/// An entry of the frontier. The cheapest comes first; among equals the later query, then the lower
+/// reference.
 struct Entry {
   double path_cost;
   std::size_t query, reference;
@@ -85,7 +86,7 @@ class LazySearch {
                                                 : static_cast<double>(enhanced_.at(query, reference)));
   }
 
-  /// Looks at a whole row, from the best path so far.
+  /// Looks at a whole row, starting from the best path so far.
   void start(std::size_t query) {
     frontier_ = {};
     const Entry from = best_;
@@ -116,13 +117,13 @@ class LazySearch {
     has_best_ = true;
   }
 
-  /// Expands until a node of the query before was expanded.
+  /// Expands nodes until one of the query before has been expanded.
   void advance_to(std::size_t query) {
     while (!frontier_.empty() && !(expand_next() && last_expanded_ + 1 == query)) {
     }
   }
 
-  /// Expands what may still reach the last query more cheaply than the best path does.
+  /// Expands the nodes that may still reach the last query more cheaply than the best path.
   void finish() {
     while (!frontier_.empty() && frontier_.top().query + 1 < queries_.end) expand_next();
   }
@@ -165,7 +166,7 @@ class LazySearch {
   const GraphSearchOptions& settings_;
   Stretch queries_;
   std::vector<std::unordered_map<std::size_t, Reached>> reached_;  // by query
-  std::vector<Stretch> bounds_;                                    // of the stretch each reference lies in
+  std::vector<Stretch> bounds_;                                    // the stretch that each reference lies in
   std::vector<bool> is_whole_;                                     // queries whose whole row was looked at
   std::size_t whole_rows_ = 0;
   std::priority_queue<Entry> frontier_;

@@ -15,10 +15,10 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The least of every `width` neighbours of a row of costs, wherever they touch it.
+/// The least of every `width` neighbours in a row of costs that overlap it.
 class SlidingMinima {
  public:
-  /// For windows that begin from -margin on and end before size + margin.
+  /// For windows that begin at or after -margin and end before size + margin.
   SlidingMinima(std::size_t size, std::size_t margin) : margin_(margin), size_(size + 2 * margin) {
     padded_.assign(size_, kInfinity);
   }
@@ -28,11 +28,11 @@ class SlidingMinima {
     done_.clear();
   }
 
-  /// Minima of `width` neighbours; the window that begins at reference r is at [r] of what is returned, from
+  /// Minima of `width` neighbours; the window that begins at reference r is at [r] of the result, from
   /// -margin on.
   const float* of_width(std::size_t width) {
-    // The least of 2^n neighbours is that of two windows of 2^(n-1); of a width between, that of two that
-    // overlap.
+    // The least of 2^n neighbours is that of two windows of 2^(n-1); for a width in between, of two
+    // overlapping windows.
     std::size_t power = 1;
     const float* minima = padded_.data();
     while (2 * power <= width) {
@@ -63,7 +63,7 @@ class SlidingMinima {
   std::map<std::size_t, std::vector<float>> kept_;  // by width
 };
 
-/// The costs of every pair of some queries that follow each other.
+/// The costs of every pair of some successive queries.
 class HybridBlock {
  public:
   HybridBlock(const CostMatrix& enhanced, const ConeShape& shape, std::size_t begin, std::size_t count)
@@ -97,7 +97,7 @@ class HybridBlock {
   SequenceMatch match(std::size_t query, std::size_t window) {
     const std::span<float> costs =
         std::span(sums_).subspan((query - begin_) * enhanced_.references, enhanced_.references);
-    // Between these references every row that has a query touches.
+    // Between these references, every row that has a query touches the reference.
     std::size_t from = 0, to = costs.size();
     int whole = 0;
     for (const ConeShape::Row& row : shape_.rows()) {
@@ -141,7 +141,7 @@ class HybridBlock {
 
 std::vector<SequenceMatch> search_hybrid(const CostMatrix& enhanced, const SequenceSearchOptions& options) {
   const ConeShape shape(options, enhanced.queries, enhanced.references);
-  // Sums are of whole rows and in the order of the queries, so the blocks do not show.
+  // Sums run over whole rows in the order of the queries, so the result does not depend on the blocks.
   constexpr std::size_t kBytes = 1U << 20U, kFewest = 8, kMost = 64;
   const std::size_t block =
       std::clamp(kBytes / sizeof(float) / std::max<std::size_t>(1, enhanced.references), kFewest, kMost);

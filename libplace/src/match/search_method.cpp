@@ -17,7 +17,7 @@
 namespace place {
 namespace {
 
-/// A search that knows no gaps, over the stretches between them.
+/// A search that does not handle gaps, over the stretches between them.
 template <auto kSearch>
 SearchResult by_stretches(const CostMatrix& enhanced, const SearchOptions& options) {
   const auto search = [&](const CostMatrix& part) { return kSearch(part, options.sequence); };

@@ -19,7 +19,7 @@ namespace {
 constexpr std::ptrdiff_t kTriangle = 4;  // references, to either side, where its weight is 0
 
 /// The posterior of one query, up to a factor, in chunks whose sums and maxima are kept, so that most of it
-/// is passed over.
+/// can be skipped.
 class Posterior {
  public:
   static constexpr std::size_t kChunk = 64;
@@ -35,12 +35,12 @@ class Posterior {
     off_ = forward.off * backward.off;
   }
 
-  /// Where the triangle holds most; the first of equals.
+  /// Where the triangle holds most; the first among equals.
   [[nodiscard]] std::size_t peak() const {
     float most = 0;
     for (const kernels::ChunkTotals& chunk : chunks_) most = std::max(most, chunk.most);
-    // A triangle holds at most its weights' sum, kTriangle, times the highest value under it: only those with
-    // a value of a kTriangle-th of what the best is known to hold can be better.
+    // A triangle holds at most its weights' sum, kTriangle, times the highest value under it: only a value of
+    // at least 1 / kTriangle of the best so far can lead to a better one.
     float best = most;
     std::size_t at = values_.size();
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
@@ -92,8 +92,8 @@ class Posterior {
   double off_ = 0;
 };
 
-/// Matches of the queries of one stretch. The forward pass is made twice, the second time from kept rows on,
-/// the last of them first, so that two times the root of the queries are enough to be kept.
+/// Matches of the queries of one stretch. The forward pass is made twice, the second time from kept rows,
+/// last one first, so that only 2 sqrt(queries) rows need to be kept.
 void search_stretch(const CostMatrix& enhanced, const SearchOptions& options, const PathModel& model,
                     Stretch queries, std::vector<SequenceMatch>& matches) {
   const std::size_t count = queries.end - queries.begin;
@@ -112,7 +112,7 @@ void search_stretch(const CostMatrix& enhanced, const SearchOptions& options, co
     }
   };
 
-  std::vector<PathModel::Row> kept;  // before each block
+  std::vector<PathModel::Row> kept;  // the row before each block
   PathModel::Row row, next;
   for (std::size_t i = 0; i < count; ++i) {
     if (i % block == 0) kept.push_back(row);

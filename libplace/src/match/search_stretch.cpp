@@ -3,7 +3,7 @@
 namespace place {
 namespace {
 
-/// The power of two that costs are multiplied by before they are rounded.
+/// The power of two that costs are multiplied by before rounding.
 float scale_of(const CostRange& range, int length) {
   constexpr int kBits = 30;
   const double largest_sum = range.largest * length;
@@ -57,7 +57,7 @@ SearchStretch::SearchStretch(const SearchPlan& plan, std::size_t begin, std::siz
 
 void SearchStretch::add_row(std::size_t query, std::size_t first, std::span<const float> costs) {
   const std::size_t slot = query % depth_, slot_before = (query + depth_ - 1) % depth_;
-  // Columns [inside, past) have costs. Of the others only differences are taken that are 0.
+  // Columns [inside, past) have costs. For the others only differences of 0 are taken.
   const auto column = [&](std::size_t reference) {
     const auto at = static_cast<std::ptrdiff_t>(reference + before_) - static_cast<std::ptrdiff_t>(begin_);
     return static_cast<std::size_t>(
@@ -130,7 +130,7 @@ void SearchStretch::weigh_edges(std::size_t query) {
 
 void SearchStretch::point_to_rows(std::size_t query) {
   const auto row_at = [&](std::size_t ring, int along) {
-    // Rows before the first are those that were never written: 0.
+    // Rows before the first were never written: 0.
     return row(ring, (query + depth_ + static_cast<std::size_t>(along + static_cast<int>(depth_))) % depth_) +
            before_;
   };

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-/// What `SequenceSearcher` works on at a time: a stretch of the reference.
+/// `SequenceSearcher` works on one stretch of the reference at a time.
 namespace place {
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -22,21 +22,21 @@ constexpr std::size_t chunks_of(std::size_t count) {
   return (count + kChunk - 1) / kChunk;
 }
 
-/// What every stretch of the reference goes by.
+/// What all stretches of the reference share.
 struct SearchPlan {
   SearchPlan(std::size_t query_count, std::size_t reference_count, const CostRange& range,
              const SequenceSearchOptions& settings);
 
-  /// Terms of a line that lie inside the matrix are [first, last) of it, as far as queries go.
+  /// Terms [first, last) of a line lie inside the matrix's queries.
   [[nodiscard]] int first_term(std::size_t query) const {
     return std::max(0, options.length / 2 - clamped(query));
   }
   [[nodiscard]] int last_term(std::size_t query) const {
     return std::min(options.length, clamped(queries - query) + options.length / 2);
   }
-  /// How many of them lie inside the reference too.
+  /// How many of these lie inside the reference too.
   [[nodiscard]] int terms_inside(const SearchLine& line, std::size_t query, std::size_t reference) const;
-  /// What turns an integer sum of so many terms into a cost.
+  /// The factor from an integer sum of that many terms to a cost.
   [[nodiscard]] float factor(int terms) const {
     return static_cast<float>(1 / (scale * std::sqrt(static_cast<double>(terms) * options.length)));
   }
@@ -68,18 +68,18 @@ class SearchStretch {
   /// References [begin, begin + width) of those of `plan`, which is kept by reference.
   SearchStretch(const SearchPlan& plan, std::size_t begin, std::size_t width);
 
-  /// Takes in a row of the matrix, from reference `first` on, with all that lines reach; or one past the last
-  /// query's where there are no costs.
+  /// Adds a row of the matrix, from reference `first` on, with everything that lines reach; or, past the last
+  /// query, a row without costs.
   void add_row(std::size_t query, std::size_t first, std::span<const float> costs);
 
-  /// Finds the best lines of a query, all of whose rows are there. `costs` and `chunk_least`: of the
+  /// Finds the best lines of a query whose rows have all been added. `costs` and `chunk_least`: of the
   /// stretch's references, a multiple of kChunk, and of its chunks.
   StretchBest search(std::size_t query, float* costs, float* chunk_least);
 
   [[nodiscard]] std::size_t begin() const { return begin_; }
 
  private:
-  static constexpr std::size_t kLead = 4;  // columns of 0 that a running sum may begin from; the largest step
+  static constexpr std::size_t kLead = 4;  // columns of 0 for a running sum to begin from; the largest step
 
   /// A chunk some of whose lines leave the reference.
   struct Edge {
@@ -99,15 +99,15 @@ class SearchStretch {
   /// reference.
   void point_to_rows(std::size_t query);
 
-  /// The first line with the cost that was found to be the least.
+  /// The first line with the least cost.
   [[nodiscard]] std::size_t line_of(const StretchBest& best, float factor) const;
 
   const SearchPlan& plan_;
   const kernels::LineKernels& kernels_ = kernels::line_kernels();
   std::size_t begin_, width_;
   std::size_t before_;   ///< columns left of the first reference
-  std::size_t columns_;  ///< of a row
-  std::size_t depth_;    ///< rows that are kept
+  std::size_t columns_;  ///< in a row
+  std::size_t depth_;    ///< rows kept
   std::vector<std::uint32_t> sums_;
   std::vector<kernels::RunEnds> run_ends_;
   std::vector<Edge> edges_;
@@ -115,7 +115,7 @@ class SearchStretch {
   bool weights_are_whole_ = false;
 };
 
-/// How many references a stretch has: so that its running sums fit the second-level cache.
+/// The number of references in a stretch: its running sums fit the second-level cache.
 std::size_t stretch_width(const SearchRuns& runs);
 
 }  // namespace place

@@ -5,7 +5,7 @@
 
 namespace place {
 
-/// Bytes of a core's second-level cache, or the usual 512 KB where the system does not say.
+/// Bytes of a core's second-level cache, or the usual 512 KB if the system does not report it.
 inline std::size_t second_level_cache() {
   static const std::size_t size = [] {
     constexpr long kUsual = 1L << 19U;

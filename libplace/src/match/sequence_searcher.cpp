@@ -11,7 +11,7 @@
 namespace place {
 namespace {
 
-constexpr std::size_t kRows = 64;  // taken in at a time
+constexpr std::size_t kRows = 64;  // added at a time
 static_assert(SequenceSearcher::kPart % kChunk == 0);
 
 }  // namespace
@@ -70,18 +70,18 @@ class SequenceSearcher::Search {
   }
 
  private:
-  /// What the parts searched so far have for a query.
+  /// The best of the parts searched so far for a query.
   struct Found {
     StretchBest best;
     float elsewhere = kInfinity;     ///< the least cost outside the best one's window
-    std::vector<float> latest;       ///< costs of the last references, as many as a window reaches
-    float before_those = kInfinity;  ///< the least cost of those before
+    std::vector<float> latest;       ///< costs of the last references, as many as a window has
+    float before_those = kInfinity;  ///< the least cost before those
   };
 
   /// Rows past a query's own that its lines need.
   [[nodiscard]] std::size_t ahead() const { return static_cast<std::size_t>(plan_.runs.highest_query); }
 
-  /// Takes in rows and matches the queries that they complete.
+  /// Adds rows and matches the queries that they complete.
   void take(const ConstCosts& costs, std::size_t first_row, std::size_t count) {
     const auto completes_one = [&](std::size_t row) {
       return row >= ahead() && row - ahead() < plan_.queries && can_match(row - ahead());
@@ -106,14 +106,14 @@ class SequenceSearcher::Search {
     return plan_.last_term(query) - plan_.first_term(query) >= plan_.min_terms;
   }
 
-  /// Of the stretches' best, the best; and the least cost outside its window.
+  /// The best over all stretches, and the least cost outside its window.
   void decide(Found& found, std::size_t i) {
     const StretchBest& best = *std::ranges::min_element(
         std::span(best_).subspan(i * stretches_.size(), stretches_.size()), {}, &StretchBest::cost);
     if (best.cost < found.best.cost) {
       found.best = best;
       found.elsewhere = found.before_those;
-      // Of the latest, those that its window does not reach; it reaches no further back.
+      // Of the latest, those outside its window, which reaches no further back.
       const std::size_t within =
           std::min(found.latest.size(), window_ - std::min(window_, best.reference - begin_));
       found.elsewhere =
@@ -159,7 +159,7 @@ class SequenceSearcher::Search {
   SearchPlan plan_;
   std::size_t margin_, window_;  ///< references on either side
   std::vector<Found> found_;
-  std::size_t searched_ = 0;  ///< references, those of the part too
+  std::size_t searched_ = 0;  ///< references, including those of the part
   // Of the part that is being searched:
   std::size_t begin_ = 0;
   std::vector<SearchStretch> stretches_;

@@ -50,8 +50,7 @@ class Spreader {
   std::int8_t* next_;
 };
 
-/// Pairs of columns of one parity; a descriptor of other than a multiple of four columns is followed by
-/// zeros.
+/// Pairs of columns of one parity; a descriptor is padded with zeros to a multiple of four columns.
 constexpr std::ptrdiff_t pairs_of(std::size_t columns) {
   return static_cast<std::ptrdiff_t>((columns + 3) / 4);
 }

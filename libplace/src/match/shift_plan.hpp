@@ -7,8 +7,8 @@
 
 namespace place {
 
-/// How the sums D(s), s = -S .. S, of products of query column j + s with reference column j over all j where
-/// both are, are made from a few dot products.
+/// Computes the sums D(s), s = -S .. S, of products of query column j + s with reference column j over all j
+/// where both exist, from a few dot products.
 ///
 /// Directly, D(s) is one dot product over the overlap, a stretch of each descriptor: for eight columns and
 /// five shifts 8 + 2 * 7 + 2 * 6 = 34 products of columns.
@@ -28,9 +28,9 @@ namespace place {
 ///   d1.g0 + d2.g1 =     (B - C) / 2     C = (d2 - d1).(g0 - g1)
 ///   d2.g0 + d3.g1 =     (B + C) / 2 - D     D = (d1 - d3).g1
 ///
-/// Both descriptors are spread once into the sums and differences that are multiplied, which must fit a byte:
-/// so values of the descriptors reach 63 at most. Ten dot products come out: A, B, C and D of the even
-/// columns, of the odd ones, X(-1) and X(0), in the order of `ShiftPlan::stretches`.
+/// Both descriptors are spread once into the sums and differences to multiply, which must fit a byte, so the
+/// descriptors' values are at most 63. The result is ten dot products: A, B, C and D of the even columns, of
+/// the odd columns, X(-1) and X(0), in the order of `ShiftPlan::stretches`.
 struct ShiftPlan {
   /// Columns [query, query + length) of the spread query times [reference, reference + length) of the spread
   /// reference.
@@ -40,11 +40,11 @@ struct ShiftPlan {
 
   bool fast = false;
   std::size_t columns = 0;                               ///< of a descriptor
-  std::size_t query_columns = 0, reference_columns = 0;  ///< once spread
+  std::size_t query_columns = 0, reference_columns = 0;  ///< after spreading
   std::vector<Stretch> stretches;
 };
 
-/// The largest magnitude of values that a fast plan takes.
+/// The largest magnitude of values that a fast plan can handle.
 inline constexpr int kFastLimit = 63;
 
 /// A stretch for each shift, s from -max_shift up. 0 <= max_shift < columns.
@@ -53,7 +53,7 @@ ShiftPlan direct_plan(std::size_t columns, std::size_t max_shift);
 /// The plan for five shifts.
 ShiftPlan fast_plan(std::size_t columns);
 
-/// Spreads a descriptor, column after column of `channels` values, into a row of `row_channels` a column;
+/// Spreads a descriptor, column after column of `channels` values, into a row with `row_channels` per column;
 /// those past `channels` are 0.
 void spread_query(const ShiftPlan& plan, std::span<const std::int8_t> descriptor, std::size_t row_channels,
                   std::span<std::int8_t> row);

@@ -65,7 +65,7 @@ void add_squares(std::span<const std::int8_t> descriptor, std::span<double> sums
   }
 }
 
-/// sqrt(factor / square), 0 where there is nothing.
+/// sqrt(factor / square), 0 for a square of 0.
 float scale_of(double factor, double square) {
   return square == 0 ? 0.0F : static_cast<float>(std::sqrt(factor / square));
 }
@@ -109,7 +109,7 @@ ShiftedCosine::State::State(const ColumnStack& queries, const ColumnStack& of_re
       query_scales(query_count * shifts),
       reference_scales(references.size() * shifts) {
   const std::size_t columns = plan.columns, row_size = plan.query_columns * channels;
-  // What both have: shift by shift, the query's columns from `right` on and the reference's from `left` on.
+  // The overlap at each shift: the query's columns from `right` on and the reference's from `left` on.
   const auto overlap = [max_shift](std::size_t shift) {
     struct {
       std::size_t right, left;
@@ -148,12 +148,12 @@ ShiftedCosine::State::State(const ColumnStack& queries, const ColumnStack& of_re
   kernels::pack_left(kernel.packing, {nullptr, 0, row_size}, kernel.queries, packed_zeros.data());
 }
 
-/// References that are packed: as many as the kernel takes at once.
+/// Packed references, as many as the kernel processes at once.
 struct ShiftedCosine::State::Panel {
   std::size_t first, count;  ///< references of the matrix
   Bytes packed;
   std::vector<float> scales;        ///< [shift][reference]
-  std::vector<std::int32_t> start;  ///< [stretch][reference], what sums start from
+  std::vector<std::int32_t> start;  ///< [stretch][reference], initial sums
 };
 
 void ShiftedCosine::State::multiply(const std::uint8_t* queries, const Panel& panel, std::size_t stretch,
@@ -181,7 +181,7 @@ ShiftedCosine::State::Panel ShiftedCosine::State::make_panel(std::size_t first, 
     for (std::size_t s = 0; s < shifts; ++s)
       panel.scales[s * wide + i] = reference_scales[(first + i) * shifts + s];
   }
-  // Sums start from the opposite of what queries of zeros give, as the instruction may take them moved up.
+  // Sums start from minus the result for zero queries, as the instruction may take offset queries.
   std::vector<std::int32_t> sums(kernel.queries * wide);
   for (std::size_t i = 0; i < plan.stretches.size(); ++i) {
     multiply(packed_zeros.data(), panel, i, sums.data());
@@ -190,7 +190,7 @@ ShiftedCosine::State::Panel ShiftedCosine::State::make_panel(std::size_t first, 
   return panel;
 }
 
-/// The costs of a block's queries of one tile with a panel. `sums`: for every stretch [query][reference].
+/// The costs of one tile of a block's queries with a panel. `sums`: for every stretch [query][reference].
 void ShiftedCosine::State::write_costs(std::size_t tile, const Panel& panel, const Costs& block,
                                        std::span<std::int32_t> sums, std::span<float> costs) const {
   const std::size_t tall = kernel.queries, wide = kernel.references;
@@ -263,7 +263,7 @@ float ShiftedCosine::unit() const {
 
 void ShiftedCosine::compute(const Costs& block) const {
   if (block.queries == 0) return;
-  // Panels that fit half the second-level cache, and stay there while the queries stream past.
+  // Panels fill half the second-level cache and stay there while the queries stream past.
   const std::size_t panel_bytes = state_->bytes_of(state_->kernel.references, state_->plan.reference_columns);
   const std::size_t panels = std::max<std::size_t>(1, second_level_cache() / 2 / panel_bytes);
   const std::size_t together = panels * state_->kernel.references;

@@ -14,8 +14,8 @@ constexpr std::size_t round_up(std::size_t value, std::size_t step) {
   return (value + step - 1) / step * step;
 }
 
-/// References of a part: so many that all queries' costs fit a cache, no fewer than the searcher asks for,
-/// and several times those that lines reach beyond it, which are enhanced for two parts.
+/// References in a part: few enough that all queries' costs fit a cache, no fewer than the searcher needs,
+/// and several times the margin that lines reach, which is enhanced for two parts.
 std::size_t part_width(std::size_t queries, std::size_t reach, std::size_t window) {
   constexpr std::size_t kBytes = 16 << 20, kStep = ContrastEnhancer::kPart, kMost = 16 * kStep;
   const std::size_t fitting = kBytes / sizeof(float) / std::max<std::size_t>(1, queries) / kStep * kStep;
@@ -49,7 +49,7 @@ std::vector<SequenceMatch> search_streamed(const CostSource& source, const Strea
     for (std::size_t first = 0; first < width; first += part) body(first, std::min(part, width - first));
   };
 
-  // The first pass: what enhancement must know of all costs.
+  // The first pass collects what enhancement needs from all costs.
   for_each_part([&](std::size_t first, std::size_t count) {
     const Costs costs = with_margin(first, count, enhancer.margin());
     source.compute(costs);
@@ -57,7 +57,7 @@ std::vector<SequenceMatch> search_streamed(const CostSource& source, const Strea
     enhancer.survey(costs, count);
   });
 
-  // The second: enhanced, and searched.
+  // The second pass enhances and searches.
   SequenceSearcher searcher(source.queries(), width, enhancer.range(), options.search);
   for_each_part([&](std::size_t first, std::size_t count) {
     const Costs costs = with_margin(first, count, reach + enhancer.margin());

@@ -11,7 +11,7 @@ namespace place {
 namespace {
 
 constexpr float kUnit = 1.0F / 1024;
-constexpr float kLowest = 31;  // deviations below the mean, of all parts together, that still count
+constexpr float kLowest = 31;  // deviations below the mean, over all parts together, that still count
 
 }  // namespace
 

@@ -28,7 +28,7 @@ double keyframe_spacing_m(const Traverse& traverse) {
   return (*last.distance_m - *first.distance_m) / static_cast<double>(traverse.keyframes.size() - 1);
 }
 
-/// The references that are compared with: all, or of very many a shortlist.
+/// The references to compare with: all, or a shortlist of very many.
 std::vector<std::size_t> references_to_compare(const Descriptors& query, const Descriptors& reference,
                                                const RouteMatchingOptions& options, int length) {
   // A shortlist takes less than half as long as comparing all references with 400 queries
@@ -49,7 +49,7 @@ std::shared_ptr<const DescriptorSet> descriptors_of(const RouteMatchingOptions& 
   return make_descriptors({.name = "thumbnail", .patch = options.patch});
 }
 
-/// Costs that were not enhanced, in deviations from their mean: what is likely or not is told in these.
+/// Converts costs that were not enhanced to deviations from their mean, the unit of likelihoods.
 void standardise_as_a_whole(CostMatrix& costs) {
   const double mean = range_of(costs.values).centre;
   double variance = 0;

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-/// A walk's costs against a traverse of a route, by what keyframes were described by.
+/// A walk's costs against a traverse of a route, from their descriptors.
 namespace place {
 
 /// 0, 1, ... count - 1
@@ -16,10 +16,10 @@ std::vector<std::size_t> counted(std::size_t count);
 /// Keyframes of a sequence on a traverse. Throws `vo::Error` if metres are asked for and it has none.
 int sequence_length_on(const Traverse& traverse, const RouteMatchingOptions& options);
 
-/// Two walks as they are compared: all of a traverse, or a shortlist.
+/// Two walks to compare: with all of a traverse, or with a shortlist.
 struct ComparedWalks {
-  std::unique_ptr<CostSource> costs;          ///< of one descriptor, or the sum of what several say
-  std::vector<std::size_t> columns;           ///< the traverse's keyframes that are compared with
+  std::unique_ptr<CostSource> costs;          ///< of one descriptor, or the sum over several
+  std::vector<std::size_t> columns;           ///< the traverse's keyframes compared with
   std::vector<Descriptors> query, reference;  ///< kept for `costs`
 };
 ComparedWalks compared_walks(const SampledWalk& sampled, const Traverse& traverse,
@@ -31,8 +31,8 @@ struct TraverseCosts {
   CostMatrix enhanced;
 };
 
-/// `index`: of the traverse, for the callback. Costs that are not to be enhanced are standardised as a whole
-/// once the callback has seen them: what is likely or not is told in deviations.
+/// `index`: of the traverse, for the callback. Costs that are not enhanced are standardised as a whole after
+/// the callback has seen them, as likelihoods need deviations.
 TraverseCosts costs_against(const SampledWalk& sampled, const Traverse& traverse, std::size_t index,
                             const RouteMatchingOptions& options, int length, const SearchCallback& callback);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFurthestApart = 10;  // keyframes between which places are interpolated
 
-/// Known points (from, to) of a map, increasing in both; what lies between close ones is filled in.
+/// Known points (from, to) of a map, increasing in both; gaps between close ones are interpolated.
 void fill_between(TraverseMap& map, std::span<const std::pair<std::size_t, double>> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [from, to] = points[i];
@@ -47,7 +47,7 @@ TraverseMap map_from_matches(std::span<const SureMatch> matches) {
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (!(matches[i].probability.value_or(0) >= kSure)) continue;
     const auto at = static_cast<double>(*matches[i].match.reference);
-    // The traverse cannot go back: of two that say so neither is believed.
+    // The traverse cannot go back: two points that imply it are both rejected.
     if (!points.empty() && at < points.back().second) {
       points.pop_back();
       continue;

@@ -11,8 +11,8 @@ namespace place {
 
 /// Settings of `cost_matrix`.
 struct CostOptions {
-  /// Pixels of the descriptor, less than it is wide. A pair's cost is the least over the query moved by up to
-  /// so many to either side, for walkers who look a little to the side; 0 compares it as it is.
+  /// Pixels of the descriptor, less than its width. A pair's cost is the least with the query shifted by up
+  /// to this many to either side, for walkers who look a little to the side; 0: no shift.
   int max_shift_px = 0;
 };
 
@@ -20,15 +20,15 @@ struct CostOptions {
 /// and 3.4; SeqSLAM's image difference). Sums are exact integers, so every instruction set, block and number
 /// of threads gives the same bytes.
 ///
-/// With a shift each is judged on its own overlap, of a share w = 1 - |s| / width of the picture. The mean d
-/// over fewer pixels is small by chance more often, so how far it lies from c, the mean difference of places
-/// that have nothing to do with each other, counts sqrt(w) times, by which its spread is larger:
+/// Each shift is compared over its overlap, a share w = 1 - |s| / width of the picture. The mean d over fewer
+/// pixels is more often small by chance, as its spread grows with 1 / sqrt(w). So its distance from c, the
+/// mean difference of unrelated places, is weighted by sqrt(w):
 ///
 ///   cost = min over s of c + (d - c) sqrt(w)
 ///
 /// c is the mean over pairs of up to 64 references, evenly spaced. With the sum D of differences over the
-/// overlap and n pixels in a picture that is D / sqrt(w) + n c (1 - sqrt(w)) units of `unit()`, worked out in
-/// float and rounded to a whole number, halves up; at a shift of 0 it is D as it is.
+/// overlap and n pixels in a picture, the cost is D / sqrt(w) + n c (1 - sqrt(w)) units of `unit()`, computed
+/// in float and rounded to a whole number, halves up; at a shift of 0 it is D.
 class ThumbnailCosts final : public CostSource {
  public:
   /// The stacks are bytes of `vo::patch_normalise`, of the same width and height, and must outlive this.
@@ -44,7 +44,7 @@ class ThumbnailCosts final : public CostSource {
   void compute(const Costs& block) const override;
 
  private:
-  /// A shift: which columns of the query lie on which of the reference, and how their sum becomes a cost.
+  /// A shift: which columns of the query overlap which of the reference, and how their sum becomes a cost.
   struct Shift {
     std::size_t query_column, reference_column, columns;
     float factor, term;
@@ -52,11 +52,11 @@ class ThumbnailCosts final : public CostSource {
 
   const vo::ImageStack* queries_;
   const vo::ImageStack* references_;
-  vo::ImageStack turned_queries_, turned_references_;  ///< column after column, where there are shifts
+  vo::ImageStack turned_queries_, turned_references_;  ///< column after column; only with shifts
   std::vector<Shift> shifts_;
 };
 
-/// All of `ThumbnailCosts`.
+/// The whole matrix of `ThumbnailCosts`.
 CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
                        const CostOptions& options = {});
 

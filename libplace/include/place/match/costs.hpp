@@ -24,8 +24,8 @@ struct CostMatrix {
   }
 };
 
-/// A block of a matrix, wherever it lies: queries from `first_query` on by references from `first_reference`
-/// on, rows `stride` values apart.
+/// A block of a matrix in any storage: queries from `first_query` on by references from `first_reference` on,
+/// rows `stride` values apart.
 template <typename Value>
 struct CostBlock {
   std::size_t first_query = 0, queries = 0;
@@ -35,7 +35,7 @@ struct CostBlock {
 
   /// The row of the block's `i`-th query.
   [[nodiscard]] std::span<Value> row(std::size_t i) const { return {values + i * stride, references}; }
-  /// All queries by references [first, first + count), counted as the matrix does.
+  /// All queries by references [first, first + count), in indices of the matrix.
   [[nodiscard]] CostBlock columns(std::size_t first, std::size_t count) const {
     return {first_query, queries, first, count, values + (first - first_reference), stride};
   }
@@ -46,7 +46,7 @@ struct CostBlock {
 using Costs = CostBlock<float>;
 using ConstCosts = CostBlock<const float>;
 
-/// All of a matrix.
+/// A whole matrix.
 inline Costs block_of(CostMatrix& matrix) {
   return {0, matrix.queries, 0, matrix.references, matrix.values.data(), matrix.references};
 }
@@ -57,27 +57,26 @@ inline ConstCosts block_of(const CostMatrix& matrix) {
 /// A matrix of zeros.
 CostMatrix make_cost_matrix(std::size_t queries, std::size_t references);
 
-/// What is known of costs before they come.
+/// What is known of costs in advance.
 struct CostRange {
   double centre = 0;   ///< their mean
-  double largest = 0;  ///< no cost is further than this from it
+  double largest = 0;  ///< largest distance of a cost from the mean
 };
 
-/// The mean of costs and how far they lie from it.
+/// The mean of costs and their largest distance from it.
 CostRange range_of(std::span<const float> costs);
 
-/// The costs of a matrix, made block by block as they are asked for: the seam between what keyframes are
-/// described by and what searches them.
+/// The costs of a matrix, computed block by block on request: the seam between descriptors and search.
 class CostSource {
  public:
   virtual ~CostSource() = default;
 
   [[nodiscard]] virtual std::size_t queries() const = 0;
   [[nodiscard]] virtual std::size_t references() const = 0;
-  /// Every cost is `float(n) * unit()` of a whole number n >= 0.
+  /// Every cost is `float(n) * unit()` for a whole number n >= 0.
   [[nodiscard]] virtual float unit() const = 0;
 
-  /// Writes the values of a block, which are the same whatever block they are asked for in. In parallel.
+  /// Writes the values of a block, which do not depend on how the matrix is cut into blocks. In parallel.
   virtual void compute(const Costs& block) const = 0;
 };
 

@@ -9,17 +9,17 @@
 
 namespace place {
 
-/// Costs of descriptors of floats, those of any other model: 1 - cosine, mean absolute difference, or
+/// Costs of float descriptors, such as those of other models: 1 - cosine, mean absolute difference, or
 /// Euclidean distance. The cosine with a row of zeros (shorter than 1e-15) is 0.
 ///
-/// Sums are of floats, term by term in the order of the values, each step rounded to float, so they are the
-/// same for any instruction set, block and number of threads. Costs are rounded to multiples of `unit()`, of
-/// two to the even one: 2^-15 for the cosine; for the others the power of two of which the largest cost that
-/// rows of these lengths can have takes 2^14 to 2^15, by the triangle inequality.
+/// Sums are in float, term by term in the order of the values, each step rounded to float, so they are the
+/// same for any instruction set, block and number of threads. Costs are rounded to multiples of `unit()`,
+/// ties to even: 2^-15 for the cosine; for the others the power of two that makes the largest possible cost
+/// of these rows, by the triangle inequality, 2^14 to 2^15 units.
 class FloatCosts final : public CostSource {
  public:
   /// Rows of one width, finite, kept by reference. Throws `std::invalid_argument` if widths differ, a value
-  /// is not finite, or a row's squares do not add up within a float.
+  /// is not finite, or a row's sum of squares overflows a float.
   FloatCosts(const FloatRows& queries, const FloatRows& references, Metric metric);
 
   [[nodiscard]] std::size_t queries() const override { return query_count_; }

@@ -24,12 +24,12 @@ struct Match {
   double query_time_s = 0;       ///< since its first frame
   std::optional<Place> place;    ///< none: nothing to match with (see `SequenceMatch::reference`)
   double score = 0;              ///< higher is surer; 0 without a place
-  /// That the place is not a false one; none where there was too little to learn it from, or no place.
+  /// That the place is right; none if there was too little to learn it from, or no place.
   std::optional<double> probability;
-  std::optional<double> sd_keyframes;  ///< how exactly it says where: standard deviation, of the traverse
-  std::optional<double> sd_m;          ///< the same in metres of the way, where surveyed
-  bool accepted = false;               ///< the acceptance that the settings ask for
-  bool partial = false;                ///< found on a part of its line only, at an end of either walk
+  std::optional<double> sd_keyframes;  ///< standard deviation of the place, in keyframes of the traverse
+  std::optional<double> sd_m;          ///< the same in metres along the route, where surveyed
+  bool accepted = false;               ///< meets the acceptance settings
+  bool partial = false;                ///< found on only a part of its line, at an end of either walk
 };
 
 }  // namespace place

@@ -12,18 +12,17 @@
 /// `place/place.hpp` for our own search.
 namespace place::openseqslam {
 
-/// Ways of the original that are not in the paper it follows or that cost it accuracy, each by name. Off by
-/// default.
+/// Behaviour of the original that is not in its paper or that costs accuracy, each by name. Off by default.
 struct Quirks {
   /// A constant patch (0 / 0) becomes byte 0 where every other byte lies in 119..135, so that a dark or plain
-  /// patch is further from anything than two unrelated patches are. Off: the neutral 127.
+  /// patch differs more from anything than two unrelated patches do. Off: the neutral 127.
   bool constant_patch_is_zero = false;
   /// The difference is divided by the number of reference images. Off: by the number of pixels. Only a scale.
   bool divides_by_reference_count = false;
   /// The matched reference is the line's start plus half the sequence length, whatever the line's velocity.
   /// Off: the reference the line passes at the query.
   bool centre_ignores_velocity = false;
-  /// The line adds sequence length + 1 terms. Off: as many as the sequence is long.
+  /// The line adds sequence length + 1 terms. Off: sequence length terms.
   bool one_term_too_many = false;
 
   /// All of them: the program as published.
@@ -53,15 +52,15 @@ struct Match {
 };
 
 /// Patch-normalised images: 127 + round((pixel - mean) / sample deviation), halves away from zero. Throws
-/// `std::invalid_argument` if a side is no multiple of patch_px.
+/// `std::invalid_argument` if a side is not a multiple of patch_px.
 vo::ImageStack patch_normalise(const vo::ImageStack& images, const Options& options);
 
-/// D: sums of absolute differences over a constant (see Quirks::divides_by_reference_count).
+/// D: sums of absolute differences divided by a constant (see Quirks::divides_by_reference_count).
 CostMatrix difference_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
                              const Options& options);
 
-/// DD: each value against the window of references around it, (D - mean) / sample deviation, less the
-/// smallest of all. NaN where there is no deviation.
+/// DD: each value relative to the window of references around it, (D - mean) / sample deviation, minus the
+/// smallest of all. NaN where the deviation is zero.
 CostMatrix enhance(const CostMatrix& differences, const Options& options);
 
 /// The best line through each query. O(queries * references * velocities * length).

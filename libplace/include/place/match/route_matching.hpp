@@ -23,7 +23,7 @@ namespace place {
 
 /// Whether a walk is compared with all of a traverse or with a shortlist of it.
 enum class CandidateUse {
-  kAuto,    ///< a shortlist where walk and traverse are so long that it saves time
+  kAuto,    ///< a shortlist where walk and traverse are long enough to save time
   kNever,   ///< always all
   kAlways,  ///< always a shortlist
 };
@@ -32,16 +32,16 @@ enum class CandidateUse {
 struct RouteMatchingOptions {
   CandidateUse candidate_use = CandidateUse::kAuto;
   CandidateOptions candidates;  ///< its margin is widened to half a line
-  /// What keyframes were described by; null: thumbnails, as `patch` says.
+  /// What keyframes were described with; null: thumbnails, by `patch`.
   std::shared_ptr<const DescriptorSet> descriptors;
   vo::PatchNormalisationOptions patch;
   std::optional<int> max_shift_px;  ///< see `descriptor_costs`
   ContrastEnhancementOptions enhancement;
   SequenceSearchOptions search;
-  /// Metres on a line, instead of `search.length`; needs surveyed distances.
+  /// Length of a line in metres, instead of `search.length`; needs surveyed distances.
   std::optional<double> sequence_length_m;
-  std::string method = "path";  ///< of `search_methods`
-  /// Join what the traverses say of one place (`fuse_traverses`), else each is searched by itself.
+  std::string method = "path";  ///< one of `search_methods`
+  /// Join the traverses' costs for each place (`fuse_traverses`); otherwise each is searched by itself.
   bool fuse_traverses = true;
   double accept_probability = 0.95;                 ///< least probability of an accepted match
   std::optional<double> accept_score;               ///< least score instead
@@ -51,12 +51,12 @@ struct RouteMatchingOptions {
 /// A part of the matrices of a search against one traverse: all queries by some of its keyframes.
 struct SearchPart {
   std::size_t traverse = 0;                 ///< of the route
-  bool enhanced = false;                    ///< or costs as they are
-  ConstCosts costs;                         ///< its columns are counted ...
+  bool enhanced = false;                    ///< false: plain costs
+  ConstCosts costs;                         ///< its columns are numbered ...
   std::span<const std::size_t> references;  ///< ... by this: the traverse's keyframe of every column
 };
 
-/// Sees the matrices of a search pass by, to keep or to draw them.
+/// Receives the matrices of a search, to keep or draw them.
 using SearchCallback = std::function<void(const SearchPart&)>;
 
 /// Where a walk was found on a route.
@@ -64,40 +64,39 @@ struct RouteMatches {
   std::vector<Match> matches;  ///< one for each query keyframe, in order
   int sequence_length = 0;     ///< keyframes, as used
   int lines = 0;               ///< distinct lines searched through each pair; 0 unless lines are searched
-  /// Where probabilities come from, the estimated share of wrong matches, and the share of cells looked at:
-  /// of the traverse that most matches are on.
+  /// The source of probabilities, the estimated share of wrong matches, and the share of cells looked at, for
+  /// the traverse with most matches.
   ProbabilitySource probability_source = ProbabilitySource::kNone;
   double wrong_share = 1, looked_at = 1;
-  std::vector<std::string> warnings;  ///< what a user should know of traverses that share no place
+  std::vector<std::string> warnings;  ///< what a user should know about traverses that share no place
 };
 
 /// The whole cost matrix of a sampled walk and a traverse, as `match_on_route` would search it. Throws
-/// `std::invalid_argument` for walks that were not described by the options' descriptors.
+/// `std::invalid_argument` for walks that were not described with the options' descriptors.
 CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& traverse,
                                 const RouteMatchingOptions& options);
 
-/// What the standardisation of those costs counts beforehand
-/// (`ContrastEnhancementOptions::prior_queries`).
+/// The prior count of the standardisation of those costs (`ContrastEnhancementOptions::prior_queries`).
 double prior_queries_of(const RouteMatchingOptions& options);
 
-/// What a search of a walk on a traverse goes by: sequences of the length asked for, the walk's own
+/// The options for searching a walk on a traverse: sequences of the length asked for, the walk's own
 /// displacement between its keyframes (for `search_path`, in keyframes of the traverse), and where the clock
-/// of either jumped for so long that nobody knows how far it went (`vo::parts_walk`). `time_s`: of the walk's
+/// of either jumped for so long that the distance is unknown (`vo::parts_walk`). `time_s`: of the walk's
 /// frames.
 /// Throws `vo::Error` for a length in metres on a traverse without distances.
 SearchOptions search_on_route(const Traverse& traverse, std::span<const double> time_s,
                               const SampledWalk& sampled, const RouteMatchingOptions& options);
 
-/// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> fusion with what
-/// the other traverses say -> search with its certainty (`search_surely`), against each traverse; of a
-/// route's traverses the one with the surest match counts. A walk that is too short for probabilities is
-/// accepted by the score, 0.7 deviations of the enhanced cost. No sequence crosses a gap of the walk or of a
-/// traverse, except those of OpenSeqSLAM's search, which is the original's to the bit and knows no time.
+/// Finds a sampled walk on a route: descriptors -> cost matrix -> contrast enhancement -> fusion with the
+/// other traverses -> search with certainty (`search_surely`), against each traverse; the traverse with the
+/// surest match counts. In a walk too short for probabilities, matches are accepted by score, from 0.7
+/// deviations of the enhanced cost. No sequence crosses a gap of the walk or of a traverse, except in
+/// OpenSeqSLAM's search, which equals the original's to the bit and ignores time.
 ///
-/// Fusion asks where traverses lie on each other, and finds out as it finds the walk. Memory: 4 bytes for
-/// each pair of keyframes, twice, and of all traverses where they are joined. `time_s`: of the walk's frames.
-/// Throws `vo::Error` naming the traverse if it is shorter than the sequence, or has no distances where a
-/// length in metres asks for them, or no thumbnails for OpenSeqSLAM's search; `std::invalid_argument` for a
+/// Fusion needs to know where traverses overlap, and finds that the same way as it finds the walk. Memory: 4
+/// bytes for each pair of keyframes, twice, and for all traverses if they are joined. `time_s`: of the walk's
+/// frames. Throws `vo::Error` naming the traverse if it is shorter than the sequence, or has no distances but
+/// a length in metres is given, or no thumbnails for OpenSeqSLAM's search; `std::invalid_argument` for a
 /// route without traverses.
 RouteMatches match_on_route(const Route& route, std::span<const double> time_s, const SampledWalk& sampled,
                             const RouteMatchingOptions& options, const SearchCallback& callback = {});

@@ -10,14 +10,14 @@
 
 namespace place {
 
-/// What a search found, and what it took.
+/// What a search found, and how much it looked at.
 struct SearchResult {
   std::vector<SequenceMatch> matches;  ///< one for each query, in order
   double looked_at = 1;                ///< share of the matrix's cells that were looked at
 };
 
-/// A way to turn enhanced costs into a place for each query. A further one is a file with its function, an
-/// entry in the table, and its test.
+/// A way to turn enhanced costs into a place for each query. To add one: a file with its function, an entry
+/// in the table, and a test.
 struct SearchMethod {
   std::string_view name;     ///< as `--search` takes it
   std::string_view summary;  ///< one line
@@ -25,16 +25,15 @@ struct SearchMethod {
   /// of `options.gaps`. The same bytes for any number of threads. Throws `std::invalid_argument` for options
   /// that are not valid.
   SearchResult (*search)(const CostMatrix& enhanced, const SearchOptions& options);
-  /// Below this quantile of the scores that wrong matches have, hardly any right one scores
-  /// (`MatchProbabilityOptions`).
+  /// Hardly any right match scores below this quantile of wrong matches' scores (`MatchProbabilityOptions`).
   double decoy_quantile = 0.5;
-  bool scores_are_log_odds = false;  ///< a score is log(p / (1 - p)) of a probability p of its own
+  bool scores_are_log_odds = false;  ///< a score is log(p / (1 - p)) of the method's own probability p
 };
 
 /// All search methods; the first is the default.
 std::span<const SearchMethod> search_methods();
 
-/// The method of a name. Throws `vo::Error` that names all of them if there is none.
+/// The method with a name. Throws `vo::Error` naming all methods if there is none.
 const SearchMethod& search_method(std::string_view name);
 
 }  // namespace place

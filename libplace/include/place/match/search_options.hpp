@@ -7,7 +7,7 @@
 
 namespace place {
 
-/// What every search method is given beside the costs; each takes what concerns it.
+/// What every search method gets besides the costs; each uses what applies to it.
 struct SearchOptions {
   SequenceSearchOptions sequence;
   GraphSearchOptions graph;

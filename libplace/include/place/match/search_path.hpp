@@ -11,8 +11,8 @@ struct SearchResult;
 
 /// Settings of `search_path`.
 struct PathSearchOptions {
-  /// By query keyframe: how many reference keyframes the walk's own displacement since the one before is
-  /// worth, 0 or more. Empty: 1 each, as for two walks sampled to one spacing. The first says nothing.
+  /// For each query keyframe: the walk's own displacement since the one before, in reference keyframes, 0 or
+  /// more. Empty: 1 each, as for two walks sampled at one spacing. The first is ignored.
   std::vector<double> steps;
 
   /// False, with a reason that names field, value and constraint, if a field is out of its range.
@@ -20,29 +20,29 @@ struct PathSearchOptions {
 };
 
 /// One path through the whole walk: a hidden Markov model whose states are the places of the reference and
-/// one that is off the route, as Hansen and Browning 2014 ("Visual place recognition using HMM sequence
-/// matching") but for the transitions, which here come from the walk's own displacement, and the state off
-/// the route.
+/// one off the route. It follows Hansen and Browning 2014 ("Visual place recognition using HMM sequence
+/// matching"), except for the off-route state and the transitions, which here come from the walk's own
+/// displacement.
 ///
-/// From one query to the next the place goes on by s references with p(s) in proportion to exp(-(s - step)^2
-/// / (2 deviation^2)), s >= 0. The search range of `options.sequence` says how far speeds may differ: the
+/// From one query to the next the place advances by s references with p(s) proportional to exp(-(s - step)^2
+/// / (2 deviation^2)), s >= 0. The search range of `options.sequence` sets how much speeds may differ: the
 /// step is the middle of the range (1, or that of v_min and v_max) times `PathSearchOptions::steps`; the
-/// deviation is sqrt(max(1, step) (0.98^2 + h^2)), h half the range of slopes and no more than 5: 1 for the
-/// default range and an even walk. A walk leaves the route with probability 0.1 / length, and comes back
+/// deviation is sqrt(max(1, step) (0.98^2 + h^2)), h half the range of slopes and at most 5: 1 for the
+/// default range and an even walk. A walk leaves the route with probability 0.1 / length, and returns
 /// anywhere with the same: a stretch along the route lasts ten sequences on average. A pair of cost c is
-/// exp(-(c + 1) / 2) times as probable on the route as off it: even at one deviation under the mean (the best
-/// of a few neighbours has as much by chance), and half as steep as independent normal costs would be, since
-/// neighbouring pictures err together. Costs beyond +-6 count as 6.
+/// exp(-(c + 1) / 2) times as probable on the route as off it. This is even at one deviation below the mean
+/// (the best of a few neighbours has that by chance), and half as steep as for independent normal costs,
+/// since neighbouring pictures have similar errors. Costs beyond +-6 count as 6.
 ///
 /// Forward and backward passes (Rabiner 1989) give the posterior of every place at every query, given the
-/// whole walk. The match is where the posterior, smoothed by a triangle of +-4 references, is highest: places
-/// side by side share what neither has alone. Its score is log(inside / outside), the posterior's mass up to
-/// `uniqueness_window` references from it over the mass elsewhere and off the route. No step crosses a gap: a
-/// query's gap begins anew, a reference's ends the route.
+/// whole walk. The match is where the posterior, smoothed by a triangle of +-4 references, is highest, as
+/// neighbouring places share the probability of one place. Its score is log(inside / outside), the
+/// posterior's mass up to `uniqueness_window` references from it over the mass elsewhere and off the route.
+/// No step crosses a gap: the search restarts at a query's gap, and a reference's gap ends the route.
 ///
-/// O(queries * references * steps that are at all probable); one thread for each stretch of the query.
-/// Memory: 8 bytes for each reference and root of the queries. Throws `std::invalid_argument` for options
-/// that are not valid or steps that are not one for each query.
+/// O(queries * references * probable steps); one thread for each stretch of the query. Memory: 8 bytes *
+/// references * sqrt(queries). Throws `std::invalid_argument` for options that are not valid or unless there
+/// is one step for each query.
 SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options);
 
 }  // namespace place

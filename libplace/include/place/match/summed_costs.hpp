@@ -8,24 +8,24 @@
 
 namespace place {
 
-/// A source of costs and how many queries its standardisation counts beforehand
+/// A source of costs and the prior count of its standardisation
 /// (`ContrastEnhancementOptions::prior_queries`).
 struct SummedPart {
   std::unique_ptr<CostSource> costs;
   double prior_queries = 0;
 };
 
-/// The sum of several standardised matrices: what several descriptors say together. Moved up to be at least 0
-/// and rounded to 2^-10 of a deviation.
+/// The sum of several standardised matrices, which combines several descriptors. Shifted to be at least 0 and
+/// rounded to 2^-10 of a deviation.
 class SummedCosts final : public CostSource {
  public:
-  /// Works out all costs once. Throws `std::invalid_argument` unless there are parts, of one size.
+  /// Computes all costs once. Throws `std::invalid_argument` unless there are parts, all of one size.
   explicit SummedCosts(std::vector<SummedPart> parts);
 
   [[nodiscard]] std::size_t queries() const override { return parts_.front().costs->queries(); }
   [[nodiscard]] std::size_t references() const override { return parts_.front().costs->references(); }
   [[nodiscard]] float unit() const override;
-  /// A block of fewer than all queries costs as much as one of all.
+  /// A block of some queries costs as much as one of all.
   void compute(const Costs& block) const override;
 
  private:

@@ -10,35 +10,35 @@
 
 namespace place {
 
-/// Where each keyframe of a traverse lies on another one: between two of its keyframes, as a fraction; none
-/// where that is not known, or the other did not go.
+/// The place of each keyframe of a traverse on another one, as a fractional keyframe index; none where that
+/// is not known, or the other did not go there.
 using TraverseMap = std::vector<std::optional<double>>;
 
-/// From the matches of a traverse's keyframes on another traverse (`search_surely`): those of a probability
-/// of 0.95 that go on along the other, and between two of them, up to ten keyframes apart, the places
-/// between.
+/// From the matches of a traverse's keyframes on another traverse (`search_surely`): those with a probability
+/// of 0.95 that move forward along the other, and interpolated places between two of them up to ten keyframes
+/// apart.
 TraverseMap map_from_matches(std::span<const SureMatch> matches);
 
-/// The same from the other traverse, which has `count` keyframes, back.
+/// The inverse map, from the other traverse, which has `count` keyframes.
 TraverseMap inverse_map(const TraverseMap& map, std::size_t count);
 
-/// A walk's costs against a further traverse, and where on it the keyframes of the first lie.
+/// A walk's costs against a further traverse, and the places on it of the first one's keyframes.
 struct FurtherCosts {
   const CostMatrix* enhanced = nullptr;
   const TraverseMap* map = nullptr;
 };
 
-/// Joins what several traverses of a route say of one place, so that a walk by night finds it on the walk by
-/// night and one in the rain on that in the rain, and where two are alike they bear each other out. `base`:
-/// the walk's enhanced costs against one traverse; it becomes, for each of that traverse's places,
+/// Joins the costs of several traverses for each place, so that a walk by night finds it on the night
+/// traverse and one in the rain on the rain traverse, and similar traverses reinforce each other. `base`: the
+/// walk's enhanced costs against one traverse; it becomes, for each of that traverse's places,
 ///
 ///   -log(mean over the traverses that have the place of exp(-cost)),
 ///
-/// the cost under a mixture of conditions of which each is as probable, costs being log likelihoods (those of
-/// `search_path` at twice its steepness: of several traverses one is to be believed, not an average); between
-/// two keyframes of a further traverse the lower of both costs. Then each query's and each place's costs are
-/// standardised again (`Enhancement::kStandardise`). Without a further traverse that has a place `base` stays
-/// as it is. Throws `std::invalid_argument` for matrices or maps that do not belong together. O(queries *
+/// the cost under a mixture of equally probable conditions, with costs as log likelihoods (those of
+/// `search_path` at twice its steepness, so that the best traverse counts rather than an average). Between
+/// two keyframes of a further traverse, the lower of both costs is used. Then each query's and each place's
+/// costs are standardised again (`Enhancement::kStandardise`). `base` is unchanged if no further traverse has
+/// a place. Throws `std::invalid_argument` for matrices or maps that do not belong together. O(queries *
 /// references * traverses), in parallel.
 void fuse_traverses(CostMatrix& base, std::span<const FurtherCosts> further);
 

@@ -6,9 +6,8 @@
 
 namespace place {
 
-/// Keyframes before which a walk was interrupted (its clock jumps, the camera was off): keyframe k stands for
-/// the gap between k - 1 and k. No sequence crosses one. Increasing; a 0 or an index past the end says
-/// nothing.
+/// Keyframes before which a walk was interrupted (its clock jumps, the camera was off): k means a gap between
+/// keyframes k - 1 and k. No sequence crosses one. Increasing; 0 or an index past the end is ignored.
 struct WalkGaps {
   std::vector<std::size_t> query;
   std::vector<std::size_t> reference;
@@ -27,7 +26,7 @@ struct Stretch {
 /// `std::invalid_argument` if `gaps` does not increase.
 std::vector<Stretch> stretches_between(const std::vector<std::size_t>& gaps, std::size_t count);
 
-/// The keyframes before which a walk's clock jumped for so long that nobody knows how far the walker went
+/// The keyframes before which a walk's clock jumped for so long that the distance is unknown
 /// (`vo::parts_walk`). `frames`: the keyframes, increasing; `time_s`: of all frames, increasing. Throws
 /// `std::invalid_argument` for keyframes that are not among them. O(frames).
 std::vector<std::size_t> gaps_at(std::span<const std::size_t> frames, std::span<const double> time_s);

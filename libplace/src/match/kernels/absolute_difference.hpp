@@ -11,14 +11,13 @@ struct ByteImages {
   std::size_t count;
 };
 
-/// What of images is compared: `bytes` of each from its first on, of which `stride` lie between two images'
-/// first ones.
+/// The compared part of images: the first `bytes` of each, with `stride` bytes from one image to the next.
 struct ImageSize {
   std::size_t bytes;
   std::size_t stride;
 };
 
-/// Where costs go, query by query: scale * sum for query i and reference j to values[i * stride + j].
+/// The output, query by query: scale * sum for query i and reference j goes to values[i * stride + j].
 struct ScaledSums {
   float scale;
   float* values;
@@ -27,8 +26,8 @@ struct ScaledSums {
 
 /// sums of |queries[i * stride + k] - references[j * stride + k]| over k < bytes. Exact integers until the
 /// two roundings of `float(sum) * scale`. `bytes` < 2^23, so that a sum fits 31 bits; stride >=
-/// references.count. A thread streams the references past the queries, which had best fit half its
-/// second-level cache; images that begin at cache lines are read at up to twice the speed.
+/// references.count. A thread streams the references past the queries, which should fit half its second-level
+/// cache; images aligned to cache lines are read at up to twice the speed.
 using AbsoluteDifferenceKernel = void (*)(ByteImages queries, ByteImages references, ImageSize size,
                                           const ScaledSums& sums);
 
@@ -48,7 +47,7 @@ void absolute_difference_neon(ByteImages queries, ByteImages references, ImageSi
                               const ScaledSums& sums);
 #endif
 
-/// The fastest of them that this processor runs.
+/// The fastest that this processor supports.
 AbsoluteDifferenceKernel absolute_difference();
 
 }  // namespace place::kernels

@@ -25,7 +25,7 @@ struct Tiles : vo::lanes::Avx512 {
   }
 
  private:
-  /// Parts of 128 bits, scaled, to a row each.
+  /// Scaled 128-bit parts, one to each row.
   template <std::size_t kRows>
   static void store_rows(Sums totals, float* row, const ScaledSums& to) {
     const __m512 scaled = _mm512_mul_ps(_mm512_cvtepi32_ps(totals), _mm512_set1_ps(to.scale));
@@ -35,8 +35,8 @@ struct Tiles : vo::lanes::Avx512 {
     _mm_storeu_ps(row + 2 * to.stride, _mm512_extractf32x4_ps(scaled, 2));
     _mm_storeu_ps(row + 3 * to.stride, _mm512_extractf32x4_ps(scaled, 3));
   }
-  /// Of four registers each of whose 64-bit parts is below 2^32: four parts of 128 bits, in each of them a
-  /// 32-bit sum for every register, which add up to the totals.
+  /// From four registers whose 64-bit parts are below 2^32: four parts of 128 bits, each with a 32-bit sum
+  /// for every register, which add up to the totals.
   static Sums interleaved(const Sums (&sums)[4]) {
     const Sums first = _mm512_add_epi32(sums[0], _mm512_slli_epi64(sums[1], 32));
     const Sums second = _mm512_add_epi32(sums[2], _mm512_slli_epi64(sums[3], 32));

@@ -5,23 +5,22 @@
 
 #include <algorithm>
 
-/// The sums of absolute differences, written once over any kind of lanes: tiles of a few queries by a few
-/// references whose sums stay in registers. `Lanes` is a kind with, in addition,
-///   kTileQueries, kTileReferences   about as many sums as there are registers for
-///   store_tile(sums, to)            a tile's totals, of Sums[queries][references], scaled
-/// Included only by the sources of `kernels`.
+/// The sums of absolute differences, written once for any kind of lanes: tiles of a few queries by a few
+/// references whose sums stay in registers. `Lanes` is a kind that also has kTileQueries, kTileReferences
+/// about as many sums as there are registers for store_tile(sums, to)            a tile's totals, of
+/// Sums[queries][references], scaled Included only by the sources of `kernels`.
 namespace place::kernels {
 
 using vo::lanes::kLine;
 using vo::lanes::unrolled;
 
-/// Where the images of a tile begin.
+/// Pointers to the images of a tile.
 struct Tile {
   const std::uint8_t* queries;
   const std::uint8_t* references;
   ImageSize size;
   ScaledSums sums;
-  const std::uint8_t* ahead;  ///< 2 * size.bytes to fetch into the first-level cache meanwhile
+  const std::uint8_t* ahead;  ///< 2 * size.bytes to prefetch into the first-level cache
 };
 
 /// The totals one by one.
@@ -35,8 +34,8 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
   });
 }
 
-/// Holds kQueries * kReferences sums, kReferences bytes and two more in registers. Not inlined: within a
-/// larger function compilers run out of registers and spill sums.
+/// Holds kQueries * kReferences sums, kReferences bytes and two more in registers. Not inlined: in a larger
+/// function compilers run out of registers and spill sums.
 template <class Lanes, std::size_t kQueries, std::size_t kReferences>
 [[gnu::noinline]] void sum_tile(const Tile& tile) {
   typename Lanes::Sums sums[kQueries][kReferences];
@@ -65,7 +64,7 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
     add_all([k](const std::uint8_t* image)
                 __attribute__((always_inline)) { return Lanes::load_bytes(image + k); });
   }
-  // Else GCC keeps a copy of every sum in memory for what follows.
+  // Otherwise GCC keeps a copy of every sum in memory for the code below.
   unrolled<kQueries>([&](std::size_t i) __attribute__((always_inline)) {
     unrolled<kReferences>([&](std::size_t j)
                               __attribute__((always_inline)) { Lanes::keep_in_register(sums[i][j]); });
@@ -77,8 +76,8 @@ template <class Lanes, std::size_t kQueries, std::size_t kReferences>
   Lanes::store_tile(sums, tile.sums);
 }
 
-/// Tiles over all queries for `columns` times kReferences references, which stay in the first-level cache
-/// meanwhile. The next queries are fetched into it, and the next references into the second.
+/// Tiles over all queries for `columns` times kReferences references, which stay in the first-level cache.
+/// The next queries are prefetched into it, and the next references into the second-level cache.
 template <class Lanes, std::size_t kReferences>
 inline void sum_panel(Tile panel, std::size_t queries, std::size_t columns) {
   const std::size_t stride = panel.size.stride, bytes = columns * kReferences * stride;
@@ -104,7 +103,7 @@ inline void sum_panel(Tile panel, std::size_t queries, std::size_t columns) {
     for (std::size_t query = 0; query < queries; ++query) take.template operator()<1>(query);
     return;
   }
-  // The last tile may do some queries again.
+  // The last tile may repeat some queries.
   for (std::size_t query = 0; query < queries; query += kQueries)
     take.template operator()<kQueries>(std::min(query, queries - kQueries));
 }
@@ -113,7 +112,7 @@ template <class Lanes>
 inline void sum_all(ByteImages queries, ByteImages references, ImageSize size, const ScaledSums& sums) {
   if (queries.count == 0) return;
   if (size.bytes < Lanes::kBytes) return absolute_difference_scalar(queries, references, size, sums);
-  constexpr std::size_t kPanelBytes = 1U << 14U;  // beside two tiles' queries in 32 kB or more
+  constexpr std::size_t kPanelBytes = 1U << 14U;  // next to two tiles' queries in 32 kB or more
   constexpr std::size_t kReferences = Lanes::kTileReferences;
   const std::size_t most = std::max<std::size_t>(1, kPanelBytes / (kReferences * size.bytes));
   std::size_t j = 0;

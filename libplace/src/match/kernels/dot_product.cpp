@@ -9,8 +9,8 @@
 namespace place::kernels {
 namespace {
 
-/// Writes `rows` interleaved: kGroup values of each at a time, as `Value`. By a few groups of all rows, whose
-/// places lie close together.
+/// Writes `rows` interleaved: kGroup values of each at a time, as `Value`. A few groups of all rows at a
+/// time, whose destinations are close together.
 template <class Value, std::size_t kGroup>
 void interleave(const SignedRows& rows, std::size_t lanes, int offset, std::uint8_t* packed) {
   static_assert(kGroup * sizeof(Value) == sizeof(std::uint32_t));

@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Dot products of signed bytes as 32-bit integers, and the costs that are made of them. Exact while a sum
-/// fits 31 bits, so every instruction set gives the same integers.
+/// Dot products of signed bytes as 32-bit integers, and the costs computed from them. Exact while a sum fits
+/// 31 bits, so every instruction set gives the same integers.
 ///
 /// Both sides are packed: the queries of a tile, or the references of a panel, interleaved a few values at a
 /// time. A register then holds sums of as many references as it has lanes, and nothing is ever added across
 /// a register.
 namespace place::kernels {
 
-/// Rows of signed bytes, one after another; -128 is not among them.
+/// Rows of signed bytes, one after another; never -128.
 struct SignedRows {
   const std::int8_t* values;
   std::size_t count;
@@ -25,11 +25,11 @@ struct DotTile {
   const std::uint8_t* queries;     ///< packed, from the stretch's first value on
   const std::uint8_t* references;  ///< the same
   std::size_t size;                ///< of the stretch; a multiple of 4
-  const std::int32_t* start;       ///< of each reference, what its sums start from
+  const std::int32_t* start;       ///< initial sum of each reference
   std::int32_t* sums;              ///< [query][reference]
 };
 
-/// A query's sums for every shift, to its least cost over the shifts; for the references of a panel. The
+/// From a query's sums for every shift to its least cost over the shifts, for the references of a panel. The
 /// cost of a shift is 1 - (sum * reference_scale) * query_scale.
 struct ShiftCosts {
   const std::int32_t* sums;  ///< [shift][reference], `stride` from one shift to the next
@@ -47,7 +47,7 @@ struct DotKernels {
   vo::lanes::Packing packing;
   void (*multiply)(const DotTile&);
   void (*costs)(const ShiftCosts&);
-  /// The same from the ten sums of `match/shift_plan.hpp` in place of those of five shifts.
+  /// The same from the ten sums of `match/shift_plan.hpp` instead of the sums of five shifts.
   void (*costs_of_five)(const ShiftCosts&);
 };
 
@@ -56,8 +56,7 @@ constexpr std::size_t packed_bytes(const vo::lanes::Packing& packing, std::size_
   return size / packing.group * sizeof(std::uint32_t) * lanes;
 }
 
-/// Packs rows as left operands (queries) or right ones (references); up to `lanes` of them, zeros for those
-/// that are missing.
+/// Packs up to `lanes` rows as left operands (queries) or right ones (references), padded with zero rows.
 void pack_left(const vo::lanes::Packing& packing, const SignedRows& rows, std::size_t lanes,
                std::uint8_t* packed);
 void pack_right(const vo::lanes::Packing& packing, const SignedRows& rows, std::size_t lanes,
@@ -77,7 +76,7 @@ const DotKernels& vnni_dot_kernels();
 const DotKernels& neon_dot_kernels();
 #endif
 
-/// The fastest of them that this processor runs.
+/// The fastest that this processor supports.
 const DotKernels& dot_kernels();
 
 }  // namespace place::kernels

@@ -2,20 +2,20 @@
 
 #include "match/kernels/dot_product.hpp"
 
-/// The kernels, written once over any kind of lanes. Included only by the sources of `kernels`.
+/// The kernels, written once for any kind of lanes. Included only by the sources of `kernels`.
 namespace place::kernels {
 
 using vo::lanes::kLine;
 using vo::lanes::unrolled;
 
-inline constexpr std::size_t kAhead = 64;  ///< 32-bit groups to the ones that are fetched meanwhile
+inline constexpr std::size_t kAhead = 64;  ///< 32-bit groups to prefetch ahead
 
 template <class Lanes>
 [[gnu::always_inline]] inline auto load_sums(const std::int32_t* from) {
   return Lanes::load(reinterpret_cast<const std::uint32_t*>(from));
 }
 
-/// Holds kQueries * kRegisters sums in registers. Not inlined: within a larger function compilers run out of
+/// Holds kQueries * kRegisters sums in registers. Not inlined: in a larger function compilers run out of
 /// registers and spill sums.
 template <class Lanes, std::size_t kQueries, std::size_t kRegisters>
 [[gnu::noinline]] void multiply_tile(const DotTile& tile) {

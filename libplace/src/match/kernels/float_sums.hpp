@@ -3,8 +3,8 @@
 #include <cstddef>
 
 /// Sums over pairs of rows of floats. The terms of a pair are added one after the other in the order of the
-/// values, each step rounded to float, by whatever instruction set: registers hold the sums of different
-/// references. So all give the same bits.
+/// values, each step rounded to float; registers hold the sums of different references. So all instruction
+/// sets give the same bits.
 ///
 /// Both sides are interleaved: value k of all queries of a tile, or of all references of a panel, lie side
 /// by side.
@@ -20,9 +20,8 @@ struct FloatTile {
   float* sums;              ///< [query][reference]
 };
 
-/// From sums to costs, for the references of a panel. Where there are `reference_scales` the cost is
-/// 1 - (sum * reference_scale) * query_scale, not below 0; else the sum, or its square root, times
-/// query_scale.
+/// From sums to costs, for the references of a panel. With `reference_scales` the cost is 1 - (sum *
+/// reference_scale) * query_scale, at least 0; otherwise the sum, or its square root, times query_scale.
 struct FloatCostRow {
   const float* sums;              ///< of each reference
   const float* reference_scales;  ///< of each reference, or null
@@ -51,7 +50,7 @@ const FloatKernels& avx512_float_kernels();
 const FloatKernels& neon_float_kernels();
 #endif
 
-/// The fastest of them that this processor runs.
+/// The fastest that this processor supports.
 const FloatKernels& float_kernels();
 
 }  // namespace place::kernels

@@ -3,10 +3,10 @@
 #include "lanes/lanes.hpp"
 #include "match/kernels/float_sums.hpp"
 
-/// The kernels, written once over any kind of lanes. Included only by the sources of `kernels`.
+/// The kernels, written once for any kind of lanes. Included only by the sources of `kernels`.
 namespace place::kernels {
 
-/// Holds kQueries * kRegisters sums in registers. Not inlined: within a larger function compilers run out of
+/// Holds kQueries * kRegisters sums in registers. Not inlined: in a larger function compilers run out of
 /// registers and spill sums.
 template <class Lanes, Term kTerm, std::size_t kQueries, std::size_t kRegisters>
 [[gnu::noinline]] void add_tile(const FloatTile& tile) {

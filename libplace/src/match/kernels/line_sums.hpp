@@ -6,7 +6,7 @@
 /// The inner loops of the sequence search, on integers: sums wrap around, and differences of them are exact.
 namespace place::kernels {
 
-inline constexpr std::size_t kChunk = 32;  ///< columns worked on together; rows are padded to a multiple
+inline constexpr std::size_t kChunk = 32;  ///< columns processed together; rows are padded to a multiple
 
 /// out[i] = before[i] + round((costs[i] - centre) * scale), i < count.
 struct Accumulation {
@@ -23,7 +23,7 @@ struct RunEnds {
   const std::uint32_t* before;
 };
 
-/// Lines through every column of a row: the sum of a line is that of its runs.
+/// Lines through every column of a row: the sum of a line is the sum of its runs.
 struct LineSums {
   const RunEnds* runs;          ///< of all lines, one after another
   const std::uint32_t* counts;  ///< runs of each line, at least one
@@ -34,13 +34,13 @@ struct LineKernels {
   void (*accumulate)(const Accumulation&);
   /// costs[c] = factor * the least sum, for the kChunk columns from `column` on; returns the least of them.
   float (*least)(const LineSums&, std::size_t column, float factor, float* costs);
-  /// The same where every line and column has its own factor, and a term that is 0 or infinite: line i's are
-  /// at [i * kChunk] of `factors` and `terms`.
+  /// The same if every line and column has its own factor, and a term that is 0 or infinite: line i's are at
+  /// [i * kChunk] of `factors` and `terms`.
   float (*least_weighted)(const LineSums&, std::size_t column, const float* factors, const float* terms,
                           float* costs);
 };
 
-/// Those that the others must equal.
+/// The reference that the others must equal.
 const LineKernels& scalar_line_kernels();
 
 #if defined(__x86_64__)
@@ -50,7 +50,7 @@ const LineKernels& avx2_line_kernels();
 const LineKernels& avx512_line_kernels();
 #endif
 
-/// The fastest of them that this processor runs.
+/// The fastest that this processor supports.
 const LineKernels& line_kernels();
 
 }  // namespace place::kernels

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-/// The kernels, written once over any kind of lanes. Included only by the sources of `kernels`.
+/// The kernels, written once for any kind of lanes. Included only by the sources of `kernels`.
 namespace place::kernels {
 
 template <class Lanes>

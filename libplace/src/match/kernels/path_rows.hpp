@@ -3,19 +3,19 @@
 #include <cstddef>
 
 /// The inner loops of the path search. Every instruction set gives the same bytes: sums are kept in kLanes
-/// parts whatever the width of a register, and nothing is contracted.
+/// parts for any register width, and no operations are fused.
 namespace place::kernels {
 
 inline constexpr std::size_t kLanes = 16;
 
-/// The sum and the highest of a chunk.
+/// The sum and the maximum of a chunk.
 struct ChunkTotals {
   double sum;
   float most;
 };
 
 struct PathKernels {
-  /// out[i] = 2^(slope * (even - cost)), costs beyond +-furthest counted as that; to 4e-6 of itself.
+  /// out[i] = 2^(slope * (even - cost)), costs clamped to +-furthest; relative error 4e-6.
   void (*likelihoods)(const float* costs, std::size_t count, float even, float slope, float furthest,
                       float* out);
   /// to[i] = floor + sum over k < tap_count of taps[k] * from[i + k].
@@ -23,7 +23,7 @@ struct PathKernels {
                    float floor, float* to);
   /// out[i] = a[i] * b[i]; `out` may be `a`. Returns the sum.
   double (*multiply)(const float* a, const float* b, std::size_t count, float* out);
-  /// The same, and the highest; factors are not negative.
+  /// The same, and the maximum; factors are not negative.
   ChunkTotals (*multiply_chunk)(const float* a, const float* b, std::size_t count, float* out);
 };
 
@@ -35,7 +35,7 @@ const PathKernels& plain_path_kernels();
 const PathKernels& avx2_path_kernels();
 #endif
 
-/// The fastest of them that this processor runs.
+/// The fastest that this processor supports.
 const PathKernels& path_kernels();
 
 }  // namespace place::kernels

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-/// Plain loops that compilers make vectors of, to be compiled once for each instruction set.
+/// Plain loops that compilers vectorise, compiled once for each instruction set.
 namespace place::kernels {
 namespace {
 
@@ -35,7 +35,7 @@ inline void likelihoods(const float* costs, std::size_t count, float even, float
 
 inline void convolve(const float* from, std::size_t count, const float* taps, std::size_t tap_count,
                      float floor, float* __restrict to) {
-  if (tap_count == 5) {  // what a walk of even spacing has
+  if (tap_count == 5) {  // the case of an evenly spaced walk
     const float a = taps[0], b = taps[1], c = taps[2], d = taps[3], e = taps[4];
     for (std::size_t i = 0; i < count; ++i)
       to[i] = floor + a * from[i] + b * from[i + 1] + c * from[i + 2] + d * from[i + 3] + e * from[i + 4];
