@@ -12,7 +12,7 @@ SearchOptions reversed(SearchOptions options, std::size_t queries) {
   }
   std::ranges::reverse(gaps);
   options.gaps.query = std::move(gaps);
-  // The step to a keyframe becomes the one from it: the first, which says nothing, stays.
+  // The step to a keyframe becomes the step from it; the first, which is unused, stays.
   std::vector<double>& steps = options.path.steps;
   if (!steps.empty()) std::ranges::reverse(steps.begin() + 1, steps.end());
   return options;

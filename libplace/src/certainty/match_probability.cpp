@@ -11,7 +11,7 @@ double logistic(double x) {
   return 1 / (1 + std::exp(-std::clamp(x, -30.0, 30.0)));
 }
 
-/// The value below which a share of sorted values lies, linearly interpolated.
+/// The quantile of sorted values at a share, linearly interpolated.
 double quantile_of(std::span<const double> sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() - 1);
   const auto low = static_cast<std::size_t>(at);
@@ -24,14 +24,13 @@ struct Line {
   double offset = 0, slope = 0;
 };
 
-/// Scores in deviations of the decoys from their mean, each with the weight of its being right, and of its
-/// being wrong.
+/// Scores in deviations from the decoys' mean, each with its weight of being right and of being wrong.
 struct Weighted {
   double x, right, wrong;
 };
 
-/// Logistic regression by Newton's method, from `line` on. The slope is drawn to 0 as by a normal prior of
-/// deviation 10: without it two groups that do not overlap would have none.
+/// Logistic regression by Newton's method, starting from `line`. A normal prior of deviation 10 draws the
+/// slope to 0: without it, two groups that do not overlap would have no finite slope.
 Line regress(std::span<const Weighted> scores, Line line) {
   constexpr double kPrior = 0.01, kLongestStep = 3, kSmallest = 1e-8;
   constexpr int kRounds = 30;
@@ -87,13 +86,13 @@ MatchProbabilities match_probabilities(std::span<const double> scores, std::span
   const auto below =
       static_cast<double>(std::ranges::count_if(scores, [&](double s) { return s < quantile; }));
   const double wrong = (below + options.decoy_quantile) / (options.decoy_quantile * (count + 1));
-  // No share is known better than to half a match.
+  // A share is known to half a match at best.
   result.wrong_share = std::clamp(wrong, 0.5 / count, 1 - 0.5 / count);
 
   double mean = 0, variance = 0;
   for (const double s : sorted) mean += s / static_cast<double>(sorted.size());
   for (const double s : sorted) variance += (s - mean) * (s - mean) / static_cast<double>(sorted.size());
-  // Decoys that are all equal say where wrong matches lie, not how far they spread.
+  // Decoys that are all equal show where wrong matches lie, but not their spread.
   const double deviation = variance > 0 ? std::sqrt(variance) : 1;
   const double high = quantile_of(sorted, 0.9);
   constexpr double kFirstGuess = 0.95;
@@ -117,7 +116,7 @@ MatchProbabilities match_probabilities(std::span<const double> scores, std::span
     }
     double most_changed = 0;
     for (std::size_t i = 0; i < scores.size(); ++i) {
-      // log(f1 / f0), from odds in which the groups' sizes have a part.
+      // log(f1 / f0), from odds that include the groups' sizes.
       const double tilt = line.offset + line.slope * all[i].x - std::log(right / not_right);
       const double probability = logistic(tilt + prior_odds);
       most_changed = std::max(most_changed, std::abs(probability - all[i].right));

@@ -21,7 +21,7 @@ double spread_of(const CostMatrix& enhanced, std::size_t query, const SequenceMa
     for (int k = -kHalf; k <= kHalf; ++k) {
       const std::ptrdiff_t q = static_cast<std::ptrdiff_t>(query) + k;
       const std::ptrdiff_t r = centre + d + std::lround(k * match.slope);
-      // Outside the matrix nothing is known: an average cost.
+      // Outside the matrix nothing is known: use an average cost.
       if (q < 0 || q >= queries || r < 0 || r >= references) continue;
       sum += static_cast<double>(enhanced.at(static_cast<std::size_t>(q), static_cast<std::size_t>(r)));
     }

@@ -29,13 +29,13 @@ constexpr int kRows = 3, kColumns = 8;
 constexpr int kChannels = 128;
 constexpr int kMaxShift = 2;
 constexpr double kPriorQueries = 30;
-/// Axes are scaled by their variance to the power of minus this, so that the few largest, which tell open
-/// ground from walls, do not drown those that tell one place from another. 0.5 would whiten.
+/// Axes are scaled by their variance to the power of minus this, so that the few largest, which separate open
+/// ground from walls, do not hide those that separate places. 0.5 would whiten.
 constexpr double kEvening = 0.2;
-// A sample of so many is as good as more of them.
+// Larger samples are no better.
 constexpr std::size_t kSampledKeyframes = 200;
 constexpr std::size_t kSampledBlocks = 20'000;
-constexpr std::size_t kColumnKeyframes = 100;  // whose columns the column axes are learned from
+constexpr std::size_t kColumnKeyframes = 100;  // from whose columns the column axes are learned
 
 const CellGrid kGrid{};
 
@@ -56,7 +56,7 @@ FloatRows blocks_of(const Bytes& record) {
   return dense_blocks(unpack_cells(record), kGrid);
 }
 
-/// The columns of one picture, those of each vocabulary one after another.
+/// The columns of one picture, for one vocabulary after another.
 FloatRows columns_of(const FloatRows& projected, const std::vector<FloatRows>& vocabularies) {
   std::vector<FloatRows> parts;
   std::size_t width = 0;
@@ -111,14 +111,14 @@ void even_out(const FloatRows& columns, PrincipalAxes& axes) {
   }
 }
 
-/// Descriptors before they are rounded, a row for each.
+/// Descriptors before rounding, one row each.
 FloatRows described(std::span<const Bytes> records, const BlocksModel& model) {
   std::vector<FloatRows> columns;
   for (const Bytes& record : records)
     columns.push_back(columns_of(project(blocks_of(record), model.block_axes), model.vocabularies));
   FloatRows rows = make_float_rows(static_cast<std::size_t>(kColumns) * kChannels, records.size());
   const FloatRows along = project(joined(columns), model.column_axes);
-  for (std::size_t i = 0; i < along.size(); ++i)  // a short walk has fewer axes; the rest is 0
+  for (std::size_t i = 0; i < along.size(); ++i)  // a short walk has fewer axes; the rest are 0
     std::ranges::copy(along[i],
                       rows[i / kColumns].begin() + static_cast<std::ptrdiff_t>(i % kColumns * kChannels));
   return rows;
@@ -159,7 +159,7 @@ BlocksModel learn_blocks(std::span<const Bytes> records) {
   BlocksModel model;
   const FloatRows blocks = joined(parts);
   model.block_axes = principal_axes(blocks, kBlockAxes);
-  if (model.block_axes.axes.size() == 0) {  // one grey throughout: any axis will do
+  if (model.block_axes.axes.size() == 0) {  // uniform grey throughout: any axis will do
     model.block_axes.axes = make_float_rows(blocks.width, 1);
     model.block_axes.axes[0][0] = 1;
   }
@@ -183,7 +183,7 @@ BlocksModel learn_blocks(std::span<const Bytes> records) {
 
 ColumnStack describe_blocks(std::span<const Bytes> records, const BlocksModel& model) {
   ColumnStack stack = make_column_stack(kColumns, kChannels, records.size());
-  constexpr std::size_t kTogether = 8;  // keyframes for which the axes are read once
+  constexpr std::size_t kTogether = 8;  // keyframes processed for each reading of the axes
   vo::parallel_for((records.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
     const std::size_t first = part * kTogether, count = std::min(kTogether, records.size() - first);
     const FloatRows rows = described(records.subspan(first, count), model);

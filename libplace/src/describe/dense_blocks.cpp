@@ -8,9 +8,9 @@
 namespace place {
 namespace {
 
-constexpr float kNoise = 100;        // of the squared length, (grey levels)^2 summed over a cell
+constexpr float kNoise = 100;        // added to the squared length, (grey levels)^2 summed over a cell
 constexpr float kClip = 0.2F;        // Lowe 2004
-constexpr float kNoTexture = 1e-4F;  // keeps a block of nothing at 0
+constexpr float kNoTexture = 1e-4F;  // keeps an empty block at 0
 
 std::array<float, kBlockCells> window() {
   std::array<float, kBlockCells> weights{};
@@ -22,7 +22,7 @@ std::array<float, kBlockCells> window() {
   return weights;
 }
 
-/// Eight running sums, which compilers turn into vectors.
+/// Eight running sums, which compilers vectorise.
 template <typename Term>
 float sum_of(std::span<const float> values, const Term& term) {
   constexpr std::size_t kLanes = 8;

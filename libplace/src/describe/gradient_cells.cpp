@@ -13,9 +13,9 @@
 namespace place {
 namespace {
 
-/// The two cells along one side that a pixel counts for, and the share of the second.
+/// The two cells along one axis that a pixel counts for, and the share of the second.
 struct Shares {
-  std::vector<int> first;  // -1 where there is none before the first cell
+  std::vector<int> first;  // -1 before the first cell
   std::vector<float> second;
 };
 
@@ -34,7 +34,7 @@ Shares shares_of(int cells, int cell_px) {
 std::vector<std::uint8_t> bordered(const cv::Mat& frame, int width, int height) {
   std::vector<std::uint8_t> small(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   cv::Mat larger = frame;
-  if (!frame.empty() && frame.depth() == CV_8U && frame.cols <= width)  // means of areas would show as steps
+  if (!frame.empty() && frame.depth() == CV_8U && frame.cols <= width)  // area averaging would produce steps
     cv::resize(frame, larger, {width, height}, 0, 0, cv::INTER_LINEAR);
   vo::make_thumbnail(larger, {.width = width, .height = height}, small);
   const std::size_t stride = static_cast<std::size_t>(width) + 2;
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> bordered(const cv::Mat& frame, int width, int height) 
 }
 
 /// The angle of (dx, dy) in turns, 0 to 1, within 1e-5 of a turn: the arctangent's polynomial of Abramowitz
-/// and Stegun 4.4.49, in arithmetic that compilers turn into vectors and that is the same everywhere.
+/// and Stegun 4.4.49, in arithmetic that compilers vectorise and that is the same everywhere.
 float turns(float dx, float dy) {
   const float ax = std::abs(dx), ay = std::abs(dy);
   const float small = std::min(ax, ay), large = std::max(ax, ay);
@@ -72,7 +72,7 @@ std::vector<float> gradient_cells(const cv::Mat& frame, const CellGrid& grid) {
   const std::vector<std::uint8_t> image = bordered(frame, width, height);
   const Shares across = shares_of(grid.columns, grid.cell_px), down = shares_of(grid.rows, grid.cell_px);
   const auto directions = static_cast<std::size_t>(grid.directions);
-  // One more cell on every side takes what falls outside.
+  // One extra cell on every side receives what falls outside.
   const std::size_t cell_stride = directions,
                     row_stride = (static_cast<std::size_t>(grid.columns) + 2) * directions;
   std::vector<float> cells((static_cast<std::size_t>(grid.rows) + 2) * row_stride);

@@ -24,7 +24,7 @@ constexpr int kColumns = kGrid.columns - 1, kRows = kGrid.rows - 1, kBlock = 4 *
 
 void normalise(std::span<float> block) {
   const auto squares = [&] { return std::inner_product(block.begin(), block.end(), block.begin(), 0.0F); };
-  const float first = std::sqrt(squares() + 100);  // as much as noise of a grey level or two
+  const float first = std::sqrt(squares() + 100);  // about the noise of one or two grey levels
   for (float& value : block) value = std::min(value / first, 0.2F);
   const float second = std::sqrt(squares() + 1e-6F);
   for (float& value : block) value /= second;

@@ -39,7 +39,7 @@ void LearnedWriter::add_coarsely(const FloatRows& rows) {
     float largest = 0;
     for (const float value : rows[i]) largest = std::max(largest, std::abs(value));
     const cv::float16_t step(largest / kCoarsest);
-    // A step of half precision may be a little too small for the largest value, or 0.
+    // A step in half precision may be a little too small for the largest value, or 0.
     steps[i][0] = static_cast<float>(step) > 0 ? static_cast<float>(step) : 1;
   }
   add(steps);

@@ -24,9 +24,9 @@ namespace place {
 namespace {
 
 constexpr int kJpegQuality = 90;
-constexpr double kPriorQueries = 30;  // as of blocks
+constexpr double kPriorQueries = 30;  // as for blocks
 
-/// OpenCV tells of errors on standard error before it throws them.
+/// OpenCV prints errors on standard error before it throws them.
 class Quiet {
  public:
   Quiet() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
@@ -38,7 +38,7 @@ class Quiet {
   cv::utils::logging::LogLevel before_;
 };
 
-/// The part of OpenCV's message that says something: without file, line and version.
+/// The useful part of OpenCV's message: without file, line and version.
 std::string reason_of(const cv::Exception& error) {
   const std::string text = error.err.empty() ? std::string(error.what()) : error.err;
   return text.substr(0, text.find('\n')).substr(0, 200);
@@ -71,15 +71,15 @@ cv::dnn::Net read_net(const NetworkOptions& options) {
   }
 }
 
-/// The layer's name; throws for one that is not there.
+/// The layer's name; throws if there is no such layer.
 std::string layer_of(cv::dnn::Net& net, const NetworkOptions& options) {
   const std::vector<std::string> names = net.getLayerNames();
   if (options.layer.empty()) return net.getUnconnectedOutLayersNames().back();
   if (std::ranges::find(names, options.layer) != names.end()) return options.layer;
-  // OpenCV puts this before the names that an ONNX file has.
+  // OpenCV prefixes the names in an ONNX file with this.
   const std::string of_onnx = "onnx_node!" + options.layer;
   if (std::ranges::find(names, of_onnx) != names.end()) return of_onnx;
-  // Those that have most in common with what was asked for; else the last ones.
+  // The names most similar to the one asked for; otherwise the last ones.
   std::vector<std::string> alike;
   for (const std::string& name : names)
     if (name.find(options.layer) != std::string::npos) alike.push_back(name);
@@ -125,7 +125,7 @@ std::vector<float> pooled_output(cv::dnn::Net& net, const std::string& layer, co
 
 class Network final : public Descriptor {
  public:
-  /// Reads the model once, so that what is wrong with it is said before a walk is read.
+  /// Reads the model once, so that its errors are reported before a walk is read.
   explicit Network(NetworkOptions options) : options_(std::move(options)) {
     const Quiet quiet;
     cv::dnn::Net net = read_net(options_);
@@ -165,7 +165,7 @@ class Network final : public Descriptor {
   [[nodiscard]] FloatRows rows_of(const KeyframeRecords& keyframes) const {
     const Quiet quiet;
     std::vector<std::vector<float>> outputs(keyframes.records.size());
-    constexpr std::size_t kTogether = 32;  // keyframes for which the model is read once
+    constexpr std::size_t kTogether = 32;  // keyframes processed for each reading of the model
     vo::parallel_for((outputs.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
       cv::dnn::Net net = read_net(options_);
       const std::string layer = layer_of(net, options_);
@@ -181,7 +181,7 @@ class Network final : public Descriptor {
   NetworkOptions options_;
 };
 
-/// Of each of `parts` equal parts of `cells` in a row: the cells it covers and how much of each.
+/// For each of `parts` equal parts of `cells` in a row: the cells it covers and how much of each.
 std::vector<std::vector<std::pair<int, float>>> covered(int cells, int parts) {
   std::vector<std::vector<std::pair<int, float>>> of(static_cast<std::size_t>(parts));
   const double size = static_cast<double>(cells) / parts;

@@ -24,7 +24,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are read as t
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::string_view kExpected = "an array of NumPy's .npy format: rows of float32, float16 or uint8";
 
-/// What stands behind `key` in the header, a Python dictionary; empty if it is not there.
+/// The value of `key` in the header, a Python dictionary; empty if there is none.
 std::string_view value_of(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(key);
   if (at == std::string_view::npos) return {};
@@ -54,7 +54,7 @@ bool parse_shape(std::string_view text, Shape& shape) {
 std::string header_of(std::string_view type, std::size_t rows, std::size_t width) {
   std::string header =
       fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}", type, rows, width);
-  constexpr std::size_t kPrefix = 10, kAlign = 64;  // what stands before it, and what all must fill
+  constexpr std::size_t kPrefix = 10, kAlign = 64;  // bytes before the header, and the alignment of the data
   header.append(kAlign - 1 - (kPrefix + header.size()) % kAlign, ' ');
   header.push_back('\n');
   std::string out(kMagic);

@@ -56,7 +56,7 @@ Eigen::MatrixXf products_of_pairs(const Rows& matrix, bool by_columns) {
   return products;
 }
 
-/// The eigenvectors of a symmetric matrix's largest eigenvalues, that of the largest first.
+/// The eigenvectors of a symmetric matrix's largest eigenvalues, largest first.
 struct Leading {
   Eigen::MatrixXf vectors;
   Eigen::VectorXf values;
@@ -64,7 +64,7 @@ struct Leading {
 
 Leading leading_vectors(const Eigen::MatrixXf& symmetric, Eigen::Index wanted) {
   const Eigen::Index size = symmetric.rows();
-  // Some more than wanted: what makes few iterations enough (section 4.5 there).
+  // A few more than wanted, so that few iterations are enough (section 4.5 there).
   const Eigen::Index tried = std::min(wanted + 16, size);
   Eigen::MatrixXf basis = Eigen::MatrixXf::Identity(size, size);
   if (tried < size) {
@@ -94,7 +94,7 @@ PrincipalAxes principal_axes(const FloatRows& vectors, std::size_t count) {
   PrincipalAxes result{.mean = {mean.begin(), mean.end()}, .axes = {.width = vectors.width, .values = {}}};
 
   // The products of all pairs of columns or of all pairs of rows, whichever are fewer: their leading vectors
-  // are the axes, or what the vectors sum up to them by.
+  // are the axes, or the weights of the vectors that sum to them.
   const bool by_columns = all.cols() <= all.rows();
   const auto wanted = std::min(static_cast<Eigen::Index>(count), std::min(all.cols(), all.rows()));
   const Leading leading = leading_vectors(products_of_pairs(centred, by_columns), wanted);
@@ -106,7 +106,7 @@ PrincipalAxes principal_axes(const FloatRows& vectors, std::size_t count) {
     });
   }
   const float largest = leading.values(0);
-  constexpr float kRounding = 1e-6F;  // of the largest variance; below is rounding
+  constexpr float kRounding = 1e-6F;  // of the largest variance; anything below is rounding
   for (Eigen::Index i = 0; i < wanted; ++i) {
     if (!(leading.values(i) > kRounding * largest)) break;
     Eigen::VectorXf axis = axes.col(i).normalized();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPriorRows = 100;
 constexpr float kLeastShare = 0.1F;  // of the mean deviation
-constexpr float kNone = 1e-9F;       // where nothing differs at all
+constexpr float kNone = 1e-9F;       // if nothing varies at all
 
 }  // namespace
 

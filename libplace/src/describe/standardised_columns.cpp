@@ -30,7 +30,7 @@ ColumnStack standardised_columns(FloatRows rows, std::span<const std::uint8_t> l
                     "the same descriptor for all walks on a route");
   standardise(rows, spread);
   ColumnStack stack = make_column_stack(columns, static_cast<int>(rows.width) / columns, rows.size());
-  constexpr float kStep = 4.0F / kLargestByte;  // standardised values deviate by 1
+  constexpr float kStep = 4.0F / kLargestByte;  // standardised values have deviation 1
   for (std::size_t i = 0; i < rows.size(); ++i) quantise(rows[i], kStep, stack, i);
   return stack;
 }

@@ -12,7 +12,7 @@
 namespace place {
 namespace {
 
-/// The two nearest parts of one side of the picture for each position, and the share of the second.
+/// For each position along one axis of the picture, the two nearest parts and the share of the second.
 struct Shares {
   std::vector<std::size_t> first, second;
   std::vector<float> second_share;

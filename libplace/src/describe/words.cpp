@@ -9,8 +9,8 @@
 namespace place {
 namespace {
 
-constexpr std::size_t kOfEachWord = 150;  // vectors, that words are begun from
-constexpr int kRounds = 5;                // on all vectors; they hardly change any more
+constexpr std::size_t kOfEachWord = 150;  // vectors that words start from
+constexpr int kRounds = 5;                // on all vectors; more rounds hardly change anything
 
 /// Every n-th vector; all for n of 0 or 1.
 std::vector<float> every_nth(const FloatRows& vectors, std::size_t n) {
@@ -21,7 +21,7 @@ std::vector<float> every_nth(const FloatRows& vectors, std::size_t n) {
   return chosen;
 }
 
-/// Puts every word at the mean of the vectors that are nearest to it (Lloyd 1982); one that has none stays.
+/// Moves every word to the mean of the vectors nearest to it (Lloyd 1982); one without any stays.
 void to_middles(const FloatRows& vectors, FloatRows& words) {
   const std::vector<std::size_t> nearest = nearest_words(vectors, words);
   std::vector<double> sums(words.values.size());
@@ -48,8 +48,8 @@ FloatRows learn_words(const FloatRows& vectors, std::size_t count, std::uint32_t
     if (count > 1) words.values = std::move(points);
     return words;
   }
-  // FLANN's loops on a share of the vectors find where the clusters are; products of matrices on all of them
-  // find their middles.
+  // FLANN's loops on a share of the vectors find the clusters; products of matrices on all of them find their
+  // centres.
   points = every_nth(vectors, vectors.size() / std::max(count * kOfEachWord, std::size_t{1}));
   const std::size_t some = points.size() / vectors.width;
   words = make_float_rows(vectors.width, count);
@@ -72,7 +72,7 @@ std::vector<std::size_t> nearest_words(const FloatRows& vectors, const FloatRows
     return Eigen::Map<const Rows>(rows.values.data(), static_cast<Eigen::Index>(rows.size()),
                                   static_cast<Eigen::Index>(rows.width));
   };
-  // |v - w|^2 less |v|^2, which is the same for all words.
+  // |v - w|^2 minus |v|^2, which is the same for all words.
   Rows distance = -2 * matrix(vectors) * matrix(words).transpose();
   distance.rowwise() += matrix(words).rowwise().squaredNorm().transpose();
   std::vector<std::size_t> nearest(vectors.size());

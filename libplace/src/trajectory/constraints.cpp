@@ -9,12 +9,12 @@ namespace {
 using pose_graph::Constraint;
 using pose_graph::State;
 
-/// Sets the shares of constraints whose nodes are at these metres of the way, in order.
+/// Sets the shares of constraints whose nodes are at these metres along the path, in order.
 void share_information(std::vector<Constraint>& constraints, std::span<const double> travelled_m,
                        const DriftCorrectionOptions& options) {
   const auto at_m = [&](std::size_t i) { return travelled_m[constraints[i].node]; };
-  // Half of the way to either neighbour is a match's own; nothing of it for the ends beyond them.
-  constexpr double kLeast = 1e-3;  // of many matches at one place
+  // A match owns half of the distance to either neighbour, and nothing beyond the first and last.
+  constexpr double kLeast = 1e-3;  // for many matches at one place
   const double whole_m = options.match_correlation_m;
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const double before_m = i > 0 ? at_m(i) - at_m(i - 1) : whole_m;

@@ -21,7 +21,7 @@ std::vector<pose_graph::Motion> motions_of(const vo::Trajectory& odometry);
 double match_sd_m(double score, const DriftCorrectionOptions& options);
 double match_sd_m(const PoseFix& fix, const DriftCorrectionOptions& options);
 
-/// The share of its information that a fix does not have in common with those next to it on the way.
+/// The share of a fix's information that its neighbours along the path do not share.
 std::vector<pose_graph::Constraint> constraints_of(std::span<const PoseFix> fixes,
                                                    std::span<const double> travelled_m,
                                                    const DriftCorrectionOptions& options);
@@ -29,7 +29,7 @@ std::vector<pose_graph::Constraint> constraints_of(std::span<const LoopClosure> 
                                                    std::span<const double> travelled_m,
                                                    const DriftCorrectionOptions& options);
 
-/// A solved node; `on_map`: with the error that all matches share.
+/// A solved node; `on_map`: including the error that all matches share.
 UncertainPose uncertain_pose(double time_s, const pose_graph::State& state, Eigen::Matrix3d covariance,
                              bool on_map, const DriftCorrectionOptions& options);
 

@@ -89,7 +89,7 @@ vo::Trajectory corrected_between(const vo::Trajectory& odometry, std::span<const
                                  const CorrectedWalk& walk) {
   if (nodes.empty() || nodes.size() != walk.poses.size())
     throw std::invalid_argument("corrected_between: one node for each corrected pose expected");
-  // A pose as a node's correction has it.
+  // A pose moved by a node's correction.
   const auto moved_with = [&](std::size_t node, const vo::Pose2& pose) {
     const vo::Pose2 &from = odometry[nodes[node]].pose, &to = walk.poses[node].pose;
     const double turn = to.heading_rad - from.heading_rad, s = std::sin(turn), c = std::cos(turn);

@@ -17,8 +17,8 @@ struct FixedLagCorrector::Window {
   FixedLagOptions options;
   bool placed = false;
   vo::Trajectory odometry;
-  std::vector<PoseFix> fixes;  // until it is placed, for the alignment
-  pose_graph::Graph graph;     // states once it is placed
+  std::vector<PoseFix> fixes;  // for the alignment, until the walk is placed
+  pose_graph::Graph graph;     // states once the walk is placed
   double since_fix_m = 0;      // since the last fix
 
   void add(const vo::TimedPose& node, const std::optional<PoseFix>& fix) {
@@ -29,7 +29,7 @@ struct FixedLagCorrector::Window {
     }
     odometry.push_back(node);
     if (!fix) return;
-    // What is new in it since the last one: later ones are not known yet.
+    // The new information since the last fix: later ones are not known yet.
     const double share =
         graph.fixes.empty() ? 1 : std::min(1.0, since_fix_m / options.drift.match_correlation_m);
     since_fix_m = 0;
@@ -40,7 +40,7 @@ struct FixedLagCorrector::Window {
     if (!placed) fixes.push_back({.node = odometry.size() - 1, .pose = fix->pose, .score = fix->score});
   }
 
-  /// Lays the walk so far on the map, if matches agree.
+  /// Places the walk so far on the map, if matches agree.
   void try_to_place() {
     graph.states = initial_alignment(odometry, travelled_by_node_m(odometry), fixes);
     placed = !graph.states.empty();
@@ -54,7 +54,7 @@ struct FixedLagCorrector::Window {
     return uncertain_pose(odometry[node].time_s, graph.states[node], covariance, true, options.drift);
   }
 
-  /// Takes nodes off the front until `lag` are left.
+  /// Removes nodes from the front until `lag` are left.
   std::vector<UncertainPose> release() {
     std::vector<UncertainPose> poses;
     if (odometry.size() <= options.lag) return poses;

@@ -18,8 +18,9 @@ Point turned(double x_m, double y_m, double by_rad) {
   return {c * x_m + s * y_m, c * y_m - s * x_m};
 }
 
-/// Whether a fix is where another one, by the odometry between them, has its node. Odometry is off by a share
-/// of the way, and a single match's heading, which turns all of it, by some degrees.
+/// Whether a fix is where another fix and the odometry between them put its node. The tolerance allows for
+/// odometry errors, a share of the distance, and for the error of the other match's heading, a few degrees,
+/// which turns all of it.
 bool agree(const vo::Trajectory& odometry, const PoseFix& a, const PoseFix& b, double way_m) {
   constexpr double kLeast_m = 1, kShare = 0.2;
   const vo::Pose2 &from = odometry[a.node].pose, &to = odometry[b.node].pose;
@@ -28,7 +29,7 @@ bool agree(const vo::Trajectory& odometry, const PoseFix& a, const PoseFix& b, d
          kLeast_m + kShare * way_m;
 }
 
-/// How many neighbours agree with each fix, both ways.
+/// The number of neighbours that agree with each fix, in both directions.
 std::vector<int> support_of(const vo::Trajectory& odometry, std::span<const double> travelled_m,
                             std::span<const PoseFix> fixes) {
   constexpr double kReach_m = 15;
@@ -47,8 +48,8 @@ std::vector<int> support_of(const vo::Trajectory& odometry, std::span<const doub
   return support;
 }
 
-/// The best supported fix of every few metres, of those that two others or more agree with, and at least half
-/// as many as with the best one near.
+/// The best supported fix in every few metres, among those with which at least two others agree, and at least
+/// half as many as with the best one nearby.
 std::vector<std::size_t> anchors_of(const std::vector<int>& support, std::span<const double> travelled_m,
                                     std::span<const PoseFix> fixes) {
   constexpr double kApart_m = 3, kNear_m = 15;
@@ -70,7 +71,7 @@ std::vector<std::size_t> anchors_of(const std::vector<int>& support, std::span<c
   return anchors;
 }
 
-/// A value at each node, linear in the way between those given at some, constant beyond them.
+/// A value at each node, interpolated linearly in distance between the given ones, constant beyond them.
 class Interpolated {
  public:
   void add(double at_m, double value) {

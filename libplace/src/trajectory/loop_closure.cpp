@@ -9,14 +9,14 @@
 namespace place {
 namespace {
 
-/// How many of the walk's keyframes, from the first, are the past of one that has come so far.
+/// The number of keyframes, from the first, that are in the past at this travelled distance.
 std::size_t past_of(std::span<const double> travelled_m, std::size_t node, double recent_m) {
   return static_cast<std::size_t>(std::ranges::lower_bound(travelled_m, travelled_m[node] - recent_m) -
                                   travelled_m.begin());
 }
 
-/// The enhanced costs of the past. What is not past takes part in means and deviations, most of it being
-/// other places; then it is an average cost, so that only what is alike is a match.
+/// The enhanced costs of the past. Other keyframes, mostly other places, count in means and deviations and
+/// then get an average cost, so that only similar places match.
 CostMatrix costs_of_the_past(const vo::ImageStack& thumbnails, const std::vector<std::size_t>& past,
                              const LoopClosureOptions& options) {
   const vo::ImageStack normalised = vo::patch_normalise(thumbnails, options.patch);
@@ -48,7 +48,7 @@ std::vector<LoopClosure> find_loops(const vo::ImageStack& thumbnails, std::span<
   };
   for (std::size_t q = 0; q < matches.size(); ++q) {
     if (!matched(q)) continue;
-    // Neighbours whose matches are as far from this one's as they are from it, but for rounding.
+    // Neighbours whose matches are as far from this one's match as they are from it, up to rounding.
     constexpr std::ptrdiff_t kOff = 2;
     std::size_t along = 0, all = 0;
     for (std::size_t n = q - std::min(q, length / 2); n < std::min(matches.size(), q + length / 2 + 1); ++n) {

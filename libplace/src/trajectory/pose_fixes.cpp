@@ -16,7 +16,7 @@ RouteFixes pose_fixes(const Route& route, const std::vector<Match>& matches) {
   for (const Match& match : matches)
     if (says_where(match)) ++count[index_of(match)];
 
-  // Of surveyed traverses, and then of all, the one with most.
+  // The traverse with most matches among the surveyed ones, else among all.
   RouteFixes result;
   for (const bool surveyed : {true, false}) {
     for (std::size_t i = 0; i < count.size(); ++i) {

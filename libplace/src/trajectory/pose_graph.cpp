@@ -21,8 +21,8 @@ ceres::CostFunction* cost(const Error& error) {
   return new ceres::AutoDiffCostFunction<Error, residuals, states...>(new Error(error));
 }
 
-/// Eigenvalues and eigenvectors. One decomposition for all uses, of a size known at run time: each instance
-/// of Eigen's for a fixed size takes seconds to compile.
+/// Eigenvalues and eigenvectors. One decomposition with run-time size for all uses: each instance of Eigen's
+/// for a fixed size takes seconds to compile.
 Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(const Matrix& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric);
 }
@@ -33,7 +33,7 @@ Matrix root_of(const Matrix& information) {
   return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * solver.eigenvectors().transpose();
 }
 
-/// The pseudo-inverse: directions of which the matrix says nothing, but for rounding, stay out.
+/// The pseudo-inverse: directions with no information, up to rounding, are left out.
 Matrix pseudo_inverse(const Matrix& symmetric) {
   const auto solver = eigen(symmetric);
   const Eigen::VectorXd& values = solver.eigenvalues();
@@ -43,7 +43,7 @@ Matrix pseudo_inverse(const Matrix& symmetric) {
   return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
 }
 
-/// The graph as Ceres sees it: one parameter block for each node, in the graph's states.
+/// The graph in Ceres: one parameter block for each node, in the graph's states.
 class Problem {
  public:
   Problem(Graph& graph, const DriftCorrectionOptions& options)
@@ -78,7 +78,7 @@ class Problem {
     }
   }
 
-  /// Takes the graph's weights over.
+  /// Copies the graph's weights.
   void set_weights(const Graph& graph) {
     std::size_t i = 0;
     for (const auto* constraints : {&graph.fixes, &graph.loops})
@@ -86,7 +86,7 @@ class Problem {
         factors_[i++] = std::sqrt(constraint.weight * constraint.share);
   }
 
-  /// Relative decrease of the cost below which it is done; false for none.
+  /// `tolerance`: relative decrease of the cost at which to stop. False if there is no solution.
   bool minimise(int iterations, double tolerance) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -95,7 +95,7 @@ class Problem {
     options.max_num_iterations = iterations;
     options.function_tolerance = tolerance;
     options.initial_trust_region_radius =
-        1e10;  // Gauss-Newton: scales are weak directions, which damping holds back
+        1e10;  // Gauss-Newton: damping would hold back the scales, which are weak directions
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
@@ -122,10 +122,10 @@ class Problem {
   }
 
  private:
-  /// A place is recognised a step early or late on a corner; its heading is then far off.
+  /// On a corner, a place may be recognised a step early or late; its heading is then far off.
   static ceres::LossFunction* heading_loss() { return new ceres::CauchyLoss(1.5); }
 
-  std::vector<double> factors_;  // the costs point to them
+  std::vector<double> factors_;  // the costs point to these
   ceres::Problem problem_;
 };
 
@@ -148,7 +148,7 @@ std::vector<double> squared_errors(const Graph& graph, const DriftCorrectionOpti
 }
 
 /// Geman and McClure's weights at one stage of non-convexity (Yang et al. 2020, Eq. 12); mu = 1 is their cost
-/// itself, a large one nearly least squares. Returns the largest change.
+/// itself, a large mu nearly least squares. Returns the largest change.
 double reweight(Graph& graph, double mu, const DriftCorrectionOptions& options) {
   const std::vector<double> errors = squared_errors(graph, options);
   std::size_t i = 0;
@@ -202,8 +202,8 @@ Prior prior_at_start(const State& state, bool pose_known, const DriftCorrectionO
 }
 
 bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_convex) {
-  // Between stages; Yang et al. take 1.4. Walks with up to 70 % of their matches wrong come out the same with
-  // 2 and 8, in time that goes with the number of stages.
+  // Between stages; Yang et al. use 1.4. Walks with up to 70 % wrong matches give the same result with 2 and
+  // 8, in time proportional to the number of stages.
   constexpr double kStep = 4;
   constexpr int kIterations = 6, kLastIterations = 30, kMostRounds = 5;
   constexpr double kTolerance = 1e-3, kLastTolerance = 1e-7, kSettled = 0.01;
@@ -218,7 +218,7 @@ bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_conv
     problem.set_weights(graph);
     usable = problem.minimise(kIterations, kTolerance);
   }
-  // Geman and McClure's cost itself, until weights fit the states they lead to.
+  // Geman and McClure's cost itself, until weights and states are consistent.
   double change = 1;
   for (int round = 0; round < kMostRounds && change > kSettled && usable; ++round) {
     change = reweight(graph, 1, options);
@@ -230,7 +230,7 @@ bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_conv
 }
 
 std::vector<Eigen::Matrix3d> covariances(const Graph& graph, const DriftCorrectionOptions& options) {
-  Graph copy = graph;  // Ceres takes the states as its own
+  Graph copy = graph;  // Ceres modifies the states
   const SelectedInverse inverse(Problem(copy, options).information());
   std::vector<Eigen::Matrix3d> all;
   for (std::size_t i = 0; i < graph.states.size(); ++i) {

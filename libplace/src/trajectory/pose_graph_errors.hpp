@@ -9,14 +9,14 @@
 #include <Eigen/Core>
 
 /// The residuals of a pose graph, in standard deviations, as Ceres differentiates them: each is called with
-/// the values of a `State` for every node that it ties.
+/// the values of a `State` for every node it connects.
 namespace place::pose_graph {
 
 inline constexpr int kCount = State::kCount;
 using Vector = Eigen::Matrix<double, kCount, 1>;
 using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
-/// A vector seen by one who faces `heading`: forward, right.
+/// A vector in the frame of a walker facing `heading`: forward, right.
 template <typename T>
 std::array<T, 2> seen_from(const T& heading, const T& x, const T& y) {
   using std::cos, std::sin;
@@ -36,7 +36,7 @@ struct MotionError {
   double forward_sd, right_sd, turn_sd, step_scale_sd, bias_sd, turn_scale_sd;
 
   MotionError(const Motion& m, const DriftCorrectionOptions& o) : motion(m) {
-    // Nodes at one place: a walker who stands still may turn, and the scales stay what they are.
+    // Nodes at one place: a walker who is still may turn, and the scales do not change.
     constexpr double kLeast_m = 0.05;
     const double root_m = std::sqrt(std::max(m.distance_m, kLeast_m));
     forward_sd = std::hypot(o.step_noise_m * root_m, o.node_noise_m);
@@ -66,7 +66,7 @@ struct MotionError {
   }
 };
 
-/// Along and across the way of who was there before; `factor` is the root of the weight.
+/// Along and across the earlier walker's path; `factor` is the root of the weight.
 struct PlaceError {
   double along_sd, across_sd;
   const double* factor;

@@ -11,7 +11,7 @@
 namespace place {
 namespace {
 
-/// The trajectory moved as a whole, so that it begins at a pose.
+/// The trajectory moved rigidly so that it begins at a pose.
 vo::Trajectory laid_at(const vo::Pose2& begin, vo::Trajectory trajectory) {
   const vo::Pose2 from = trajectory.front().pose;
   const double turn = begin.heading_rad - from.heading_rad, s = std::sin(turn), c = std::cos(turn);
@@ -26,7 +26,7 @@ vo::Trajectory laid_at(const vo::Pose2& begin, vo::Trajectory trajectory) {
 }  // namespace
 
 std::size_t matches_believed(const QueryTrajectory& trajectory) {
-  constexpr double kHalf = 0.5;  // of its weight gone, a match is let go
+  constexpr double kHalf = 0.5;  // a match that has lost this share of its weight counts as rejected
   return static_cast<std::size_t>(
       std::ranges::count_if(trajectory.corrected.fix_weight, [](double weight) { return weight >= kHalf; }));
 }
@@ -44,8 +44,8 @@ QueryTrajectory query_trajectory(const Route& route, const std::vector<Match>& m
     t.why_not = "fewer than three accepted matches agree with the walk between them";
     return t;
   }
-  // With three of ten matches replaced by random ones three of five or more still agree, and the trajectory
-  // is right; of random ones alone a twentieth do.
+  // With three of ten matches replaced by random ones, at least three of five still agree and the trajectory
+  // is right; of random ones alone, a twentieth agree.
   if (const std::size_t believed = matches_believed(t); 3 * believed < t.fixes.size()) {
     t.why_not = fmt::format("only {} of {} accepted matches agree with the walk's steps and turns", believed,
                             t.fixes.size());

@@ -23,7 +23,7 @@ SelectedInverse::SelectedInverse(const Eigen::SparseMatrix<double>& lower) {
   if (cholesky.info() != Eigen::Success || !(cholesky.vectorD().array() > 0).all())
     throw std::invalid_argument("SelectedInverse: a positive definite matrix expected");
   order_ = cholesky.permutationP().indices();
-  // L has no diagonal there; ones make room for Z's.
+  // L has no diagonal there; ones make room for Z's diagonal.
   Eigen::SparseMatrix<double> identity(lower.rows(), lower.cols());
   identity.setIdentity();
   const Eigen::SparseMatrix<double> factor = cholesky.matrixL().nestedExpression();
@@ -32,7 +32,8 @@ SelectedInverse::SelectedInverse(const Eigen::SparseMatrix<double>& lower) {
   const Eigen::SparseMatrix<double> l = inverse_;
   const Eigen::VectorXd d = cholesky.vectorD();
 
-  // Columns from the last, in each rows from the bottom: Z_ij = [i = j] / d_j - sum over k > j of L_kj Z_ki.
+  // Columns from the last, and rows from the bottom in each: Z_ij = [i = j] / d_j - sum over k > j of L_kj
+  // Z_ki.
   for (int j = static_cast<int>(l.cols()) - 1; j >= 0; --j) {
     const int first = l.outerIndexPtr()[j], end = l.outerIndexPtr()[j + 1];
     for (int at = end - 1; at >= first; --at) {
@@ -40,7 +41,7 @@ SelectedInverse::SelectedInverse(const Eigen::SparseMatrix<double>& lower) {
       double value = i == j ? 1 / d[j] : 0;
       for (int below = first + 1; below < end; ++below) {
         const int k = l.innerIndexPtr()[below];
-        // Rows of one column of L are tied to each other, so that Z has the entry.
+        // Rows in one column of L are connected to each other, so Z has the entry.
         value -= l.valuePtr()[below] * *entry(inverse_, std::max(i, k), std::min(i, k));
       }
       inverse_.valuePtr()[at] = value;

@@ -9,18 +9,18 @@
 
 namespace place {
 
-/// How exactly matches say where the query is, on the right stretch: standard deviations in reference
-/// keyframes, none for a query without a match.
+/// The precision of matches along the right stretch: standard deviations in reference keyframes, none for a
+/// query without a match.
 ///
-/// The costs of the five queries about a match, along a line of its slope, are summed as the line is moved
-/// along the reference by up to `window` keyframes to either side; each place is as probable as exp(-sum / 2)
-/// (the likelihood of `search_path`; neighbouring pictures err together, so that no more than five say
-/// anything new). The result is the deviation of these places about their mean, and half a keyframe for what
-/// lies between keyframes. A sharp dip of the costs gives 0.5, a flat valley its width; where nothing dips at
-/// all, window / sqrt(3).
+/// The costs of the five queries around a match, along a line of its slope, are summed as the line is shifted
+/// along the reference by up to `window` keyframes to either side; each place has a probability proportional
+/// to exp(-sum / 2) (the likelihood of `search_path`; neighbouring pictures have similar errors, so more than
+/// five add nothing). The result combines the deviation of these places from their mean with half a keyframe
+/// for places between keyframes. A sharp dip in the costs gives 0.5, a flat valley its width, and no dip at
+/// all window / sqrt(3).
 ///
-/// `matches`: of a search over `enhanced`, one for each query; throws `std::invalid_argument` if they are
-/// not. O(matches * window).
+/// `matches`: of a search over `enhanced`, one for each query; otherwise throws `std::invalid_argument`.
+/// O(matches * window).
 std::vector<std::optional<double>> place_spread(const CostMatrix& enhanced,
                                                 std::span<const SequenceMatch> matches, int window = 10);
 

@@ -8,23 +8,23 @@
 
 namespace place {
 
-/// A match, how sure it is, and how exact.
+/// A match, its probability and its precision.
 struct SureMatch {
   SequenceMatch match;
-  /// That the query is at the matched place, rather than at another one of the route or off it; none without
-  /// a match, or where there was too little to learn it from.
+  /// Probability that the query is at the matched place, rather than elsewhere on the route or off it; none
+  /// without a match, or with too little to learn it from.
   std::optional<double> probability;
   std::optional<double> sd_keyframes;  ///< see `place_spread`; none without a match
 };
 
 /// Where the probabilities of a walk come from.
 enum class ProbabilitySource {
-  kDecoys,  ///< calibrated by the walk played backwards, and no surer than the search's own
-  kSearch,  ///< the search's own, of a walk too short for that
-  kNone,    ///< the walk is too short, and the search has none of its own
+  kDecoys,  ///< calibrated by the reversed walk, and at most the search's own
+  kSearch,  ///< the search's own, for a walk too short for decoys
+  kNone,    ///< the walk is too short, and the search gives none
 };
 
-/// Matches of a walk, with what is known of them.
+/// Matches of a walk and their certainty.
 struct SureMatches {
   std::vector<SureMatch> matches;  ///< one for each query, in order
   ProbabilitySource source = ProbabilitySource::kNone;
@@ -32,16 +32,16 @@ struct SureMatches {
   double looked_at = 1;    ///< share of the matrix's cells that the search looked at
 };
 
-/// A search with its certainty: matches (`method`), their probabilities from what the walk played backwards
-/// scores (`decoy_scores`, `match_probabilities`), and their spread along the reference (`place_spread`).
+/// A search with its certainty: matches (`method`), their probabilities from the scores of the reversed walk
+/// (`decoy_scores`, `match_probabilities`), and their spread along the reference (`place_spread`).
 ///
-/// A search whose scores are themselves log odds (`SearchMethod::scores_are_log_odds`) has the last word
-/// where it is less sure: a walk that was never on the route also looks more like it forwards than backwards,
-/// as things grow with every step, so that decoys alone take it for found; the search sees that being off the
-/// route explains it as well.
+/// If the search's scores are log odds (`SearchMethod::scores_are_log_odds`), the lower of the two
+/// probabilities counts. A walk that was never on the route also matches it better forwards than backwards,
+/// as things grow with every step, so decoys alone would accept it; the search's own probability allows for
+/// being off the route.
 ///
-/// A walk of fewer than kFewestScores matches, or whose reverse has as few, has no probabilities but those
-/// that the search's scores are themselves (`SearchMethod::scores_are_log_odds`). Cost: the search, twice.
+/// A walk with fewer than kFewestScores matches, or whose reverse has fewer, has only the search's own
+/// probabilities, if it gives any (`SearchMethod::scores_are_log_odds`). Cost: twice the search.
 SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
                           const SearchOptions& options);
 

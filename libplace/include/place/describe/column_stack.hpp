@@ -9,9 +9,9 @@
 
 namespace place {
 
-/// Descriptors of columns: what lies side by side in a picture, so that a camera turned a little sees the
-/// same columns further on. One after another in memory, each column after column, a column `channels` values
-/// of -127 to 127.
+/// Descriptors of columns: vertical strips of a picture, so that a camera turned a little sees the same
+/// columns shifted. Stored one after another, column by column, with `channels` values of -127 to 127 in a
+/// column.
 struct ColumnStack {
   int columns = 0;
   int channels = 0;

@@ -8,7 +8,7 @@
 
 namespace place {
 
-/// How rows of floats are compared; less is more alike.
+/// How rows of floats are compared; lower is more alike.
 enum class Metric {
   kCosine,  ///< 1 - cosine
   kL1,      ///< mean absolute difference
@@ -21,22 +21,22 @@ struct NetworkOptions {
   std::string model_config;                   ///< Darknet's .cfg, Caffe's .prototxt
   std::string layer;                          ///< whose output is taken; empty: the last
   int input_width = 320, input_height = 320;  ///< pixels
-  int pool_rows = 5, pool_columns = 20;       ///< the output is averaged to so many cells
+  int pool_rows = 5, pool_columns = 20;       ///< cells that the output is averaged to
   double scale = 1 / 255.0;                   ///< a pixel's value is multiplied by this, after ...
-  std::array<double, 3> mean{};               ///< ... these are taken off, in the network's order of channels
-  bool swap_rb = true;                        ///< the network takes red first
+  std::array<double, 3> mean{};               ///< ... subtracting these, in the network's order of channels
+  bool swap_rb = true;                        ///< the network expects red first
 };
 
 /// Settings of the `file` descriptor.
 struct DescriptorFileOptions {
-  std::string path;                 ///< NumPy's .npy: a row for each described frame; beside it .csv
+  std::string path;                 ///< NumPy's .npy: a row for each described frame; with a .csv next to it
   Metric metric = Metric::kCosine;  ///< of its rows
 };
 
-/// Which descriptor, and what each asks for.
+/// Which descriptor, and the settings of each.
 struct DescriptorOptions {
   std::string name = "blocks";          ///< or several joined by '+'
-  std::optional<int> max_shift_px;      ///< of a picture 64 wide; not given: the descriptor's own
+  std::optional<int> max_shift_px;      ///< of a picture 64 wide; none: the descriptor's own
   vo::PatchNormalisationOptions patch;  ///< of `thumbnail`
   NetworkOptions network;
   DescriptorFileOptions file;

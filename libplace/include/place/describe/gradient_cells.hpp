@@ -9,7 +9,7 @@
 
 namespace place {
 
-/// A grid of cells over a picture, and the directions that each tells apart.
+/// A grid of cells over a picture, and the number of directions in each.
 struct CellGrid {
   int rows = 16;
   int columns = 32;
@@ -26,20 +26,20 @@ struct CellGrid {
 /// (Dalal and Triggs 2005, section 6.3, with its trilinear sharing).
 ///
 /// Central differences, the border repeated; a pixel's magnitude is shared linearly between the two nearest
-/// directions, and between the four nearest cells by how far it lies from their centres. We keep all 360
-/// degrees: whether a wall is lighter or darker than the sky belongs to a place.
+/// directions, and between the four nearest cells by its distance from their centres. All 360 degrees are
+/// kept: whether a wall is lighter or darker than the sky characterises a place.
 ///
 /// `frame`: 8 bit, grey or BGR, not empty. Returns grid.rows x grid.columns x grid.directions values >= 0,
-/// the direction running fastest, in grey levels of difference over two pixels, summed over a cell. A picture
-/// of one grey is all 0. Throws `std::invalid_argument` for another frame, or a grid without cells. Reads
-/// every pixel of the frame once; beside that 0.2 ms for a grid of 128 x 64 pixels.
+/// the direction running fastest, in grey levels of difference over two pixels, summed over a cell. A uniform
+/// picture gives all 0. Throws `std::invalid_argument` for another frame, or a grid without cells. Reads
+/// every pixel of the frame once; apart from that 0.2 ms for a grid of 128 x 64 pixels.
 std::vector<float> gradient_cells(const cv::Mat& frame, const CellGrid& grid = {});
 
-/// Cells as bytes, for keeping one for every frame: the square root, which keeps the digits of what is small,
-/// in 255 steps up to that of the largest, which stands before them.
+/// Cells as bytes, to store them for every frame: square roots, which preserve small values, in 255 steps up
+/// to the largest, which is stored first.
 std::vector<std::uint8_t> pack_cells(std::span<const float> cells);
 
-/// What `pack_cells` packed, up to its rounding. Throws `std::invalid_argument` for fewer than 4 bytes.
+/// The inverse of `pack_cells`, up to its rounding. Throws `std::invalid_argument` for fewer than 4 bytes.
 std::vector<float> unpack_cells(std::span<const std::uint8_t> packed);
 
 /// The bytes that `pack_cells` gives for a grid.

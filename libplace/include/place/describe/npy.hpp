@@ -9,12 +9,12 @@
 namespace place {
 
 /// Reads an array of NumPy's .npy format (versions 1 to 3): two dimensions, a row for each described frame,
-/// of float32, float16 or uint8, little-endian and in C order. Throws `vo::Error` naming the file and what in
-/// it is not so.
+/// of float32, float16 or uint8, little-endian and in C order. Throws `vo::Error` naming the file and what is
+/// wrong with it.
 FloatRows read_npy(const std::filesystem::path& path);
 
 /// Writes rows as float32, or bytes as uint8, `width` to a row; the file appears whole or not at all. Throws
-/// `vo::Error` if it cannot be written, `std::invalid_argument` if the bytes are no whole rows.
+/// `vo::Error` if it cannot be written, `std::invalid_argument` if the bytes are not whole rows.
 void write_npy(const std::filesystem::path& path, const FloatRows& rows);
 void write_npy(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::size_t width);
 

@@ -10,14 +10,14 @@
 
 namespace place {
 
-/// Where accepted matches put a walk, for `correct_drift`, whose nodes are the query keyframes.
+/// The poses that accepted matches give a walk, for `correct_drift`, whose nodes are the query keyframes.
 struct RouteFixes {
   std::vector<PoseFix> fixes;
-  std::optional<std::size_t> traverse;  ///< the one that most of them are on; none without fixes
+  std::optional<std::size_t> traverse;  ///< the one with most of them; none without fixes
 };
 
-/// Poses of different surveys share their coordinates, but two walks' own odometry does not: fixes are on
-/// surveyed traverses if any match is, else on the one that most matches are on. O(matches + traverses).
+/// Surveys share their coordinates, but the odometry of two walks does not: fixes are on surveyed traverses
+/// if any match is, else on the traverse with most matches. O(matches + traverses).
 RouteFixes pose_fixes(const Route& route, const std::vector<Match>& matches);
 
 }  // namespace place
