@@ -29,7 +29,7 @@ void check(std::span<const TimedQueries> runs, const BootstrapOptions& options) 
   }
 }
 
-/// Cuts all runs at the same times; the segments in which any run has a query with a true place.
+/// Cuts all runs at the same times; keeps the segments in which any run has a query with a true place.
 std::vector<Segments> cut(std::span<const TimedQueries> runs, double segment_s) {
   const auto segment_of = [&](double time_s) {
     return static_cast<std::int64_t>(std::floor(time_s / segment_s));
@@ -53,7 +53,7 @@ std::vector<Segments> cut(std::span<const TimedQueries> runs, double segment_s) 
   return all;
 }
 
-/// Between the percentiles that leave out the same share at either end, of the values that are numbers.
+/// The interval between percentiles with the same share outside either end, over the values that are numbers.
 std::optional<Interval> interval(std::vector<double> values, double confidence) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
   if (values.empty()) return {};

@@ -84,7 +84,7 @@ Evaluation evaluate(std::span<const ScoredQuery> queries, double tolerance) {
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     counts.accept(ranked[i], tolerance);
     if (i + 1 < ranked.size() && *ranked[i + 1].score == *ranked[i].score)
-      continue;  // equal scores go together
+      continue;  // equal scores form one threshold
     const OperatingPoint point = counts.at(*ranked[i].score, result.with_truth);
     if (result.curve.empty() || point.f1 > result.best.f1) result.best = point;
     if (point.false_positives == 0) result.recall_at_100_precision = point.recall;

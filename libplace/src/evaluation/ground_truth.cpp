@@ -76,8 +76,8 @@ std::optional<double> true_reference_frame(const LandmarkPairs& pairs, double qu
   const auto i = static_cast<std::size_t>(after - pairs.query_frame.begin());
   if (*after == query_frame) return pairs.reference_frame[i];
   if (i == 0) return std::nullopt;
-  // By the slope, which is a whole number where it should be: a match exactly as far off as is tolerated
-  // would else be wrong by the last digit.
+  // Uses the slope, which is a whole number where it should be: otherwise a match exactly at the tolerance
+  // would be wrong by the last digit.
   const double slope = (pairs.reference_frame[i] - pairs.reference_frame[i - 1]) /
                        (pairs.query_frame[i] - pairs.query_frame[i - 1]);
   return pairs.reference_frame[i - 1] + slope * (query_frame - pairs.query_frame[i - 1]);

@@ -8,7 +8,7 @@
 namespace place {
 namespace {
 
-/// How far the truth has come at each frame.
+/// The true distance travelled at each frame.
 std::vector<double> travelled_m(std::span<const vo::Pose3> truth) {
   std::vector<double> distance_m(truth.size(), 0);
   for (std::size_t i = 1; i < truth.size(); ++i)

@@ -12,7 +12,7 @@
 namespace place {
 namespace {
 
-/// By how much the clocks of truth and estimate may differ at the ends: about a frame.
+/// Allowed difference of the clocks of truth and estimate at the ends: about a frame.
 constexpr double kClockTolerance_s = 0.05;
 
 vo::Pose2 between(const vo::Pose2& a, const vo::Pose2& b, double t) {
@@ -20,7 +20,7 @@ vo::Pose2 between(const vo::Pose2& a, const vo::Pose2& b, double t) {
           vo::wrap_angle_rad(a.heading_rad + t * vo::wrap_angle_rad(b.heading_rad - a.heading_rad))};
 }
 
-/// The pair at a distance within those there are.
+/// The pair at a distance within the range of pairs.
 PosePair pair_at(std::span<const PosePair> pairs, double distance_m) {
   const auto after = std::ranges::lower_bound(pairs, distance_m, {}, &PosePair::distance_m);
   if (after == pairs.begin()) return pairs.front();
@@ -30,7 +30,7 @@ PosePair pair_at(std::span<const PosePair> pairs, double distance_m) {
   return {distance_m, between(a.truth, after->truth, t), between(a.estimate, after->estimate, t)};
 }
 
-/// The estimate's pose after it was put upon the truth at the start.
+/// The estimate's pose after aligning it with the truth at the start.
 vo::Pose2 reset(const vo::Pose2& estimate, const PosePair& start) {
   const double turn = start.truth.heading_rad - start.estimate.heading_rad;  // clockwise
   const double x = estimate.x_m - start.estimate.x_m, y = estimate.y_m - start.estimate.y_m;
@@ -92,7 +92,7 @@ std::vector<PosePair> pair_by_time(const vo::Trajectory& truth, std::span<const 
 }
 
 std::vector<PosePair> pair_by_share(std::span<const WayPoint> way, const vo::Trajectory& estimate) {
-  // Legs of the way that have a length, and the distance at which each begins.
+  // Legs of the path that have a length, and the distance at which each begins.
   struct Leg {
     double begin_m, length_m;
     WayPoint from, to;

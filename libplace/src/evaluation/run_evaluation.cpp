@@ -9,7 +9,7 @@
 namespace place {
 namespace {
 
-/// The run's own acceptance, which need not be a plain threshold.
+/// The run's own acceptance, which may not be a plain threshold.
 OperatingPoint accepted_point(std::span<const Match> matches, const RunEvaluation& run) {
   std::vector<ScoredQuery> accepted = run.queries;
   std::optional<double> least;

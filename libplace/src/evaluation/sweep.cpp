@@ -21,7 +21,7 @@ struct Walks {
   vo::Walk reference;
 };
 
-/// Two walks cut down to keyframes, and how alike those are.
+/// Two walks reduced to keyframes, and their costs.
 struct Sampled {
   std::vector<std::size_t> query_frames;
   std::vector<std::int64_t> reference_frames;
@@ -45,7 +45,7 @@ Sampled sample(const Walks& walks, const Settings& given) {
   return sampled;
 }
 
-/// Keeps every K-th frame, such that there are about as many keyframes as with the motion of `settings`.
+/// Keeps every K-th frame, so that there are about as many keyframes as with the motion of `settings`.
 int every_like(const Walks& walks, const Settings& settings) {
   const Sampled sampled = sample(walks, settings);
   const auto frames = static_cast<double>(walks.query.frames() + walks.reference.frames());
@@ -78,7 +78,7 @@ std::optional<CellResult> run_cell(const Sampled& sampled, const CostMatrix& enh
                     .recall_at_1 = e.recall_at_1};
 }
 
-/// A sweep under way: what is to be done, what is done, and where it is kept.
+/// A sweep in progress: what remains, what is done, and where it is kept.
 class Sweep {
  public:
   Sweep(const SweepInput& input, const std::vector<SweepAxis>& axes, SweepResults& results,
@@ -89,11 +89,11 @@ class Sweep {
     }
   }
 
-  /// Runs what is missing; false if the user stopped it.
+  /// Runs the missing cells; false if the user stopped it.
   bool run() {
     if (missing_.empty()) return true;
     if (!input_.settings.every) choose_every();
-    // Cells of one cost matrix stand together as the axes have them only by chance, so they are sorted.
+    // The axes' order need not keep cells with one cost matrix together, so they are sorted.
     std::ranges::stable_sort(missing_, {}, [&](const SweepCell& cell) { return matrix_key(cell); });
     std::optional<Sampled> sampled;
     std::string sampled_for;
@@ -111,7 +111,7 @@ class Sweep {
   }
 
  private:
-  /// What is given in a cell and has an effect there.
+  /// The settings given in a cell that have an effect there.
   [[nodiscard]] Settings settings(const SweepCell& cell) const {
     Settings given = settings_at(input_.settings, axes_, cell);
     if (given.motion == "none" && every_ > 0) given.every = every_;
@@ -151,7 +151,7 @@ class Sweep {
     if (known != walks_.end()) return known->second;
     vo::WalkOptions walk = stages(cell).walk;
     walk.preview_width_px = 0;
-    for (const SweepCell& other : missing_) {  // what any of them needs
+    for (const SweepCell& other : missing_) {  // everything that any of them needs
       const vo::WalkOptions needed = stages(other).walk;
       walk.track_features |= needed.track_features;
       walk.visual_odometry |= needed.visual_odometry;

@@ -26,8 +26,8 @@ constexpr std::array kColumns{Column{"max_f1", &CellResult::max_f1},
                               Column{"recall_at_100_precision", &CellResult::recall_at_100_precision},
                               Column{"recall_at_1", &CellResult::recall_at_1}};
 
-/// What may change from cell to cell, though walks are read once, or once for each descriptor: not the
-/// pictures and points kept of them, nor what makes no difference to precision and recall.
+/// Settings that may change from cell to cell although walks are read once, or once for each descriptor: not
+/// those of the pictures and points kept, nor those that do not affect precision and recall.
 bool can_vary(const Setting& setting) {
   if (setting.name == "descriptor") return true;
   constexpr std::array kNotHere{"compat",        "sequence-length-m",  "threads",

@@ -9,7 +9,7 @@
 namespace place {
 namespace {
 
-/// Index of the pose nearest in time; of two as near, the earlier.
+/// Index of the pose nearest in time; of two equally near, the earlier.
 std::size_t nearest(const vo::Trajectory& trajectory, double time_s) {
   const auto after = std::ranges::lower_bound(trajectory, time_s, {}, &vo::TimedPose::time_s);
   const auto index = static_cast<std::size_t>(after - trajectory.begin());
@@ -18,7 +18,7 @@ std::size_t nearest(const vo::Trajectory& trajectory, double time_s) {
   return time_s - trajectory[index - 1].time_s <= after->time_s - time_s ? index - 1 : index;
 }
 
-/// Turns, scales and moves: scale * R(turn clockwise) p + shift.
+/// Rotates, scales and translates: scale * R(turn clockwise) p + shift.
 struct Similarity {
   double turn_rad = 0, scale = 1, x_m = 0, y_m = 0;
 

@@ -46,7 +46,7 @@ std::span<const std::uint8_t> bytes_of(const Descriptors& descriptors) {
 
 std::optional<Descriptors> make_of_form(std::string_view name, std::int64_t width, std::int64_t height,
                                         std::size_t count) {
-  constexpr std::int64_t kLargest = 1 << 24;  // bytes of one that is taken for no mistake
+  constexpr std::int64_t kLargest = 1 << 24;  // bytes of one descriptor; anything larger is an error
   if (width < 0 || height < 0 || width > kLargest || height > kLargest || width * height > kLargest)
     return {};
   const int w = static_cast<int>(width), h = static_cast<int>(height);

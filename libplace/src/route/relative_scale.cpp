@@ -12,7 +12,7 @@
 namespace place {
 namespace {
 
-/// Mean cost of every query's best line of one slope.
+/// Mean cost over all queries of the best line with one slope.
 double mean_best_cost(const CostMatrix& enhanced, double slope, int length) {
   const SequenceSearchOptions options{.length = length, .v_min = slope, .v_max = slope};
   double sum = 0;
@@ -45,7 +45,7 @@ RelativeScale relative_scale(CostMatrix enhanced, const RelativeScaleOptions& op
     const double away = log_scale(static_cast<std::ptrdiff_t>(i));
     judged[i] += options.prior_weight * away * away;
   }
-  // Slopes that round to the same line cost the same: the middle of the stretch that the best one lies in.
+  // Slopes that round to the same line cost the same: take the middle of the stretch around the best one.
   const auto best = cost.begin() + (std::ranges::min_element(judged) - judged.begin());
   const auto differs = [&](double c) { return c != *best; };
   const auto last = std::find_if(best, cost.end(), differs) - 1;

@@ -8,7 +8,7 @@ namespace place {
 
 namespace {
 
-/// Adds the keyframes of frames [begin, end) to those before.
+/// Appends the keyframes of frames [begin, end).
 void resample_part(std::span<const double> displacement, std::size_t begin, std::size_t end, double unit,
                    std::vector<std::size_t>& keyframes) {
   if (begin >= end) return;
@@ -19,8 +19,8 @@ void resample_part(std::span<const double> displacement, std::size_t begin, std:
     const double before = travelled;
     travelled += displacement[i];
     if (travelled < next) continue;
-    // The multiples between the two frames: the first may lie nearer to the frame before, the last to this
-    // one, and those between have no frame of their own.
+    // The multiples between the two frames: the first may be nearer to the frame before, the last to this
+    // one, and those in between have no frame.
     const double last = std::max(next, std::floor(travelled / unit) * unit);
     if (next - before < travelled - next && i - 1 > keyframes.back()) keyframes.push_back(i - 1);
     if (travelled - last <= last - before) keyframes.push_back(i);

@@ -30,7 +30,7 @@ using sqlite::Statement;
 
 constexpr std::int64_t kApplicationId = 0x72747263;  // "rtrc", in the header of the file
 
-// What walks take over lies as key and value, so that a new setting changes no table.
+// Settings that walks adopt are stored as key and value, so that a new setting changes no table.
 constexpr const char* kSchema = R"sql(
 CREATE TABLE route(
   software_version TEXT NOT NULL, unit REAL NOT NULL, metric INTEGER NOT NULL, traverses INTEGER NOT NULL,
@@ -82,7 +82,7 @@ void check(const Route& route) {
   }
 }
 
-/// The settings that a statement gives as name and value.
+/// The settings that a statement returns as name and value.
 Settings read_settings(Statement& rows, const std::string& path) {
   Settings settings;
   while (rows.step()) {
@@ -246,8 +246,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
                     fmt::format("schema version {}; build the route again", kRouteSchemaVersion));
   }
 
-  // SQLite fills a last page that is cut short with zeros. Where changes wait beside the file, pages of it
-  // are there.
+  // SQLite pads a truncated last page with zeros. If there is a file of pending changes, pages may be there.
   std::error_code ignored;
   const bool whole_file = !std::filesystem::exists(shown + "-wal", ignored);
   Statement size = database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
@@ -288,11 +287,11 @@ void write_route(const std::filesystem::path& path, const Route& route) {
   if (std::filesystem::is_directory(path)) throw vo::Error(path.string(), "is a folder", "a file to write");
   vo::AtomicFile file(path);
   std::error_code ignored;
-  std::filesystem::remove(file.temporary(), ignored);  // of a killed process that had the same number
+  std::filesystem::remove(file.temporary(), ignored);  // of a killed process with the same number
   {
     const Database database(file.temporary(), Database::Mode::kCreate, path.string());
-    // No journal: until the rename nobody looks at this file, and a broken one is thrown away whole.
-    // Pages of 16 kB: a quarter of the reads that thumbnails take with SQLite's usual 4 kB.
+    // No journal: nobody reads this file before the rename, and a broken one is discarded whole. Pages of 16
+    // kB: thumbnails take a quarter of the reads of SQLite's usual 4 kB.
     database.run("PRAGMA page_size = 16384; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;");
     database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId,
                              kRouteSchemaVersion));

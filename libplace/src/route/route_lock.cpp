@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// The lock's file: beside the file that is meant, whatever link it was named by.
+/// The lock file: next to the actual file, even if it was named by a link.
 fs::path lock_file(const fs::path& route) {
   std::error_code error;
   fs::path real = fs::weakly_canonical(route, error);
@@ -36,11 +36,11 @@ Attempt try_lock(int descriptor) {
   for (;;) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Attempt::kTaken;
     if (errno == EWOULDBLOCK) return Attempt::kBusy;
-    if (errno != EINTR) return Attempt::kNoLocks;  // ENOLCK, ENOTSUP: file systems over a network
+    if (errno != EINTR) return Attempt::kNoLocks;  // ENOLCK, ENOTSUP: network file systems
   }
 }
 
-/// True if the file that is open is still the one of that name: its holder before may have removed it.
+/// True if the open file is still the one with that name: its previous holder may have removed it.
 bool is_still(int descriptor, const fs::path& file) {
   struct stat open {
   }, named{};
@@ -48,7 +48,7 @@ bool is_still(int descriptor, const fs::path& file) {
          open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-/// Who holds the lock, as its file says.
+/// The holder of the lock, as named in its file.
 std::string holder(const fs::path& file) {
   std::array<char, 32> text{};
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -87,7 +87,7 @@ RouteLock::RouteLock(const fs::path& route, const RouteLockOptions& options)
       break;
     }
     ::close(descriptor);
-    if (attempt == Attempt::kTaken) continue;  // the file was removed meanwhile; there is another
+    if (attempt == Attempt::kTaken) continue;  // the file was removed in between; there is another
     if (Clock::now() >= deadline) {
       throw vo::Error(route.string(), fmt::format("is being written by {}", holder(file_)),
                       "one at a time; try again when it is done");
@@ -99,13 +99,13 @@ RouteLock::RouteLock(const fs::path& route, const RouteLockOptions& options)
   }
   const std::string process = std::to_string(::getpid());
   if (::ftruncate(descriptor_, 0) != 0 || ::write(descriptor_, process.data(), process.size()) < 0) {
-    // Only for a message to others.
+    // Only for others' messages.
   }
   stamp_ = stamp(route_);
 }
 
 RouteLock::~RouteLock() {
-  // First the name, then the lock: who gets the lock of a file without a name looks again.
+  // First the name, then the lock: a process that gets the lock of a file without a name tries again.
   ::unlink(file_.c_str());
   ::close(descriptor_);
 }

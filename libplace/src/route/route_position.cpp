@@ -10,11 +10,11 @@ namespace place {
 namespace {
 
 struct Leg {
-  double x_m, y_m;     // where it begins
+  double x_m, y_m;     // its start
   double east, north;  // unit vector
   double length_m;
   double from_m, to_m;  // along the route
-  double path_m;        // of the path before it
+  double path_m;        // length of the path before it
 };
 
 std::vector<Leg> legs_of(const Traverse& traverse) {
@@ -44,7 +44,7 @@ struct Found {
   double along;  // share of the leg
 };
 
-/// The nearest point on legs [begin, end) that go into the pose's half of the compass; on all if none does.
+/// The nearest point on legs [begin, end) within 90 degrees of the pose's heading; on all legs if none is.
 std::optional<Found> nearest(const std::vector<Leg>& legs, std::size_t begin, std::size_t end,
                              const vo::Pose2& pose) {
   std::optional<Found> best;
@@ -64,7 +64,7 @@ std::optional<Found> nearest(const std::vector<Leg>& legs, std::size_t begin, st
 
 std::vector<RoutePosition> positions_on_route(const Traverse& traverse, std::span<const vo::Pose2> poses) {
   constexpr double kLost_m = 20;   // from the path
-  constexpr double kSlack_m = 10;  // a walk may fall back or get on by, beside what it moved
+  constexpr double kSlack_m = 10;  // a walk may move back or forward by this beyond its own displacement
   const std::vector<Leg> legs = legs_of(traverse);
   const auto leg_at = [&](double path_m) {
     const auto after = std::ranges::upper_bound(legs, path_m, {}, &Leg::path_m);
@@ -84,7 +84,7 @@ std::vector<RoutePosition> positions_on_route(const Traverse& traverse, std::spa
       const std::optional<Found> anywhere = nearest(legs, 0, legs.size(), pose);
       if (!found || (anywhere && anywhere->off_m < found->off_m)) found = anywhere;
     }
-    if (!found) {  // the whole route goes the other way
+    if (!found) {  // the whole route goes in the other direction
       vo::Pose2 back = pose;
       back.heading_rad += std::numbers::pi;
       found = nearest(legs, 0, legs.size(), back);

@@ -139,7 +139,7 @@ void Database::open(const std::filesystem::path& file, Mode mode) {
   database_.reset(database);
   if (code == SQLITE_OK) sqlite3_extended_result_codes(database, 0);
   if (code == SQLITE_OK && mode == Mode::kReadOnly) {
-    // The first look into the file is where SQLite finds that it cannot make what it needs beside it.
+    // At its first read SQLite finds that it cannot create the files it needs next to this one.
     code = sqlite3_exec(database, "PRAGMA schema_version", nullptr, nullptr, nullptr) & 0xFF;
     if (code == SQLITE_CANTOPEN || code == SQLITE_READONLY) {
       open_unwritable(file);

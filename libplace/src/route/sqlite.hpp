@@ -28,7 +28,7 @@ class Statement {
 
   /// True if there is a row to read.
   bool step();
-  /// Runs a statement without rows and makes it ready for the next values.
+  /// Runs a statement without rows and resets it for the next values.
   void execute();
 
   std::int64_t integer();
@@ -55,9 +55,9 @@ class Statement {
 class Database {
  public:
   enum class Mode { kReadOnly, kCreate };
-  /// To be read, a file is opened where it lies, on media that cannot be written too: SQLite's own ways need
-  /// to make files beside one in WAL mode, so that there it is opened as a file that nobody changes, or,
-  /// where changes wait beside it (`-wal`), as a copy of both.
+  /// For reading, a file is opened in place, even on read-only media: SQLite would create files next to one
+  /// in WAL mode, so there it is opened as immutable or, if there are pending changes next to it (`-wal`), as
+  /// a copy of both.
   Database(const std::filesystem::path& file, Mode mode, std::string shown_path);
 
   [[nodiscard]] Statement prepare(std::string_view sql) const;
@@ -71,7 +71,7 @@ class Database {
   void open(const std::filesystem::path& file, Mode mode);
   void open_unwritable(const std::filesystem::path& file);
 
-  /// A folder that is removed with all it holds.
+  /// A folder that is removed with its contents.
   struct Copy {
     std::filesystem::path folder;
     ~Copy();
@@ -81,8 +81,8 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// Brings changes that another program left in the `-wal` beside a file into it, so that the file can be
-/// replaced: SQLite would apply them to whatever has its name.
+/// Merges changes that another program left in the `-wal` next to a file into it, so that the file can be
+/// replaced: SQLite would apply them to any file of that name.
 void fold_changes(const std::filesystem::path& file);
 
 }  // namespace place::sqlite

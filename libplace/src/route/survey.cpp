@@ -15,7 +15,7 @@
 namespace place {
 namespace {
 
-/// A survey's path, and what is known of its clock.
+/// A survey's path and its clock.
 struct TimedPath {
   std::filesystem::path file;
   vo::Trajectory poses;
@@ -46,7 +46,7 @@ void split_at_gaps(TimedPath& path, const SurveyOptions& options, double least_g
   path.segment = std::move(split);
 }
 
-/// What the path's clock shows at the walk's first frame.
+/// Time on the path's clock at the walk's first frame.
 double start_s(TimedPath& path, const vo::Walk& walk, const SurveyOptions& options) {
   if (options.start_s) return *options.start_s;
   const double begin_s = path.poses.front().time_s, end_s = path.poses.back().time_s;
@@ -64,7 +64,7 @@ double start_s(TimedPath& path, const vo::Walk& walk, const SurveyOptions& optio
         fmt::format("{}: was not recorded at the video's creation time; it is taken to begin with the video",
                     path.file.string()));
   }
-  constexpr double kMuch = 1.5, kAlways_s = 10;  // a logger started and stopped by hand
+  constexpr double kMuch = 1.5, kAlways_s = 10;  // for a logger started and stopped by hand
   if (end_s > kMuch * duration_s(walk) + kAlways_s) {
     path.warnings.push_back(fmt::format(
         "{}: lasts {:.0f} s, the video {:.0f} s; it is taken to begin with the video (--track-start-s or "
@@ -74,7 +74,7 @@ double start_s(TimedPath& path, const vo::Walk& walk, const SurveyOptions& optio
   return 0;
 }
 
-/// The pose at a time: between two of one segment, or one that is no further away than the tolerance.
+/// The pose at a time: between two poses of one segment, or the nearest one within the tolerance.
 std::optional<vo::Pose2> pose_at(const TimedPath& path, double time_s, double tolerance_s) {
   const auto after = std::ranges::lower_bound(path.poses, time_s, {}, &vo::TimedPose::time_s);
   const auto index = static_cast<std::size_t>(after - path.poses.begin());
@@ -146,7 +146,7 @@ Survey survey_from_trajectory(const std::filesystem::path& path, const vo::Walk&
   const bool timed = !series.time_s.empty();
   if (!timed) take_times_of_frames(series, walk);
   TimedPath timed_path{.file = path, .poses = vo::planar(series), .warnings = std::move(series.warnings)};
-  constexpr double kSince1970_s = 1e9;  // a clock that shows so much shows the date: 2001 and later
+  constexpr double kSince1970_s = 1e9;  // a clock beyond this shows the date: 2001 and later
   if (timed_path.poses.front().time_s > kSince1970_s) timed_path.start_utc_s = 0;
   if (timed) split_at_gaps(timed_path, options, kTrajectoryGap_s);
   return survey_of(std::move(timed_path), walk, timed ? options : SurveyOptions{.start_s = 0});

@@ -16,14 +16,14 @@
 namespace place {
 namespace {
 
-/// A point as it stands in the file.
+/// A point as in the file.
 struct FilePoint {
   double time_s = 0;
   GeographicPoint place;
   std::size_t segment = 0;
 };
 
-/// One track of a file, and how much of it is of no use.
+/// One track of a file, and how much of it is unusable.
 struct FileTrack {
   std::string name;
   std::vector<FilePoint> points;
@@ -126,7 +126,7 @@ std::size_t chosen(const std::vector<FileTrack>& tracks, const TrackOptions& opt
   return best;
 }
 
-/// Points in order, each time once, and what was left out.
+/// Points in order, each time once, and the number left out.
 GeographicTrack in_order(const FileTrack& from, const std::string& path, std::vector<std::string> warnings) {
   GeographicTrack track{.warnings = std::move(warnings)};
   std::size_t doubled = 0;
@@ -163,7 +163,7 @@ GeographicTrack read_gpx(const std::filesystem::path& file, const TrackOptions& 
     throw vo::Error(path, "cannot be read", "a GPX file");
   std::vector<FileTrack> tracks;
   std::vector<std::string> warnings;
-  // Tracks, wherever they are: loggers that died leave the end of the file out, and the tree ends there.
+  // Tracks at any depth: if a logger died, the end of the file is missing and the tree ends there.
   struct Finder : pugi::xml_tree_walker {
     explicit Finder(std::vector<FileTrack>& found) : tracks(found) {}
     bool for_each(pugi::xml_node& node) override {
@@ -230,7 +230,7 @@ vo::Trajectory local_trajectory(const GeographicTrack& track, const GeographicOr
   vo::Trajectory trajectory;
   for (std::size_t i = 0; i < track.points.size(); ++i)
     trajectory.push_back({track.time_s[i], local_at(origin, track.points[i])});
-  vo::head_along_path(trajectory, heading_m);  // a segment of one point has its heading by its neighbours
+  vo::head_along_path(trajectory, heading_m);  // a segment of one point gets its heading from its neighbours
   for (std::size_t begin = 0; begin < track.segment.size();) {
     std::size_t end = begin + 1;
     while (end < track.segment.size() && track.segment[end] == track.segment[begin]) ++end;

@@ -16,7 +16,7 @@
 namespace place {
 namespace {
 
-/// What tells that a walk's frames are too far apart for its motion to be learned well.
+/// A warning if a walk's frames are too far apart for its motion to be learned well.
 std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionModel& model) {
   constexpr double kLittle_s = 0.19;  // five of the spans of 0.04 s over which frames are compared
   if (model.separation.back() >= kLittle_s) return {};
@@ -26,8 +26,8 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
       walk.source, model.separation.back())};
 }
 
-/// Where one walk is in metres and the other is not (steps were seen in one of them only), both are taken to
-/// have been walked at one mean speed; `relative_scale` mends what is left.
+/// Where one walk is in metres and the other is not (steps were seen in one of them only), both are assumed
+/// to have the same mean speed; `relative_scale` corrects the rest.
 void to_mean_speed(const Traverse& reference, const vo::Walk& walk, std::vector<double>& displacement) {
   double duration_s = walk.time_s.back();
   for (const vo::ClockGap& gap : walk.gaps)
@@ -57,7 +57,7 @@ std::shared_ptr<const DescriptorSet> descriptors_of(const WalkSamplingOptions& o
   return make_descriptors({.name = "thumbnail", .patch = options.motion.visual.patch});
 }
 
-/// The first frames after the gaps that part a walk.
+/// The first frames after the gaps that interrupt a walk.
 std::vector<std::size_t> begins_of(const vo::Walk& walk) {
   std::vector<std::size_t> begins;
   for (const vo::ClockGap& gap : walk.gaps)
@@ -92,12 +92,12 @@ void take_keyframes(const vo::Walk& walk, std::vector<std::size_t> frames, const
   }
 }
 
-/// The scale by which keyframes fit those of a traverse, told by the first descriptor.
+/// The scale that fits keyframes to those of a traverse, by the first descriptor.
 RelativeScale scale_to(const Traverse& reference, const SampledWalk& sampled, const Descriptor& descriptor,
                        const RelativeScaleOptions& scale, std::optional<int> max_shift_px) {
   const Descriptors query = descriptor.comparable(sampled.descriptors.front());
   Descriptors compared = descriptor.comparable(reference.descriptors.front());
-  constexpr std::size_t kLargest = 50'000;  // keyframes; of more, only the likely ones are compared
+  constexpr std::size_t kLargest = 50'000;  // keyframes; with more, only likely ones are compared
   if (count_of(compared) > kLargest) compared = select(compared, candidates(query, compared));
   const DescriptorTraits traits = descriptor.traits();
   return relative_scale(cost_matrix(*descriptor_costs(query, compared, traits, max_shift_px)), scale,

@@ -12,13 +12,13 @@
 
 namespace place {
 
-/// How far off is still right: one of the two.
+/// The largest error that counts as right: one of the two.
 struct Tolerance {
   std::optional<double> tolerance_m;       ///< metres along the route [SSS 4.2: 4]
   std::optional<double> tolerance_frames;  ///< reference frames
 };
 
-/// A run held against the truth.
+/// A run compared with the truth.
 struct RunEvaluation {
   double tolerance = 0;  ///< in the unit
   ErrorUnit unit = ErrorUnit::kMetres;
@@ -26,18 +26,18 @@ struct RunEvaluation {
   std::vector<ScoredQuery> queries;  ///< the same with scores
   Evaluation evaluation;
   OperatingPoint accepted;  ///< the run's own acceptance
-  /// Of the matches' probabilities: right is within tolerance of a true place, as counting has it. None
-  /// without probabilities.
+  /// Of the matches' probabilities, where right means within tolerance of a true place. None without
+  /// probabilities.
   std::optional<Calibration> calibration;
 };
 
-/// The truth of a query and a reference that were both surveyed: `read_truth` of both. Throws `vo::Error` as
+/// The truth for a query and a reference that were both surveyed: `read_truth` of both. Throws `vo::Error` as
 /// that does.
 GroundTruth truth(const std::filesystem::path& query_truth, const std::filesystem::path& reference_truth);
 
-/// Holds matches against the truth (SSS 4.2; counting as `Evaluation` says). Throws `vo::Error` if a frame is
-/// outside the truth, `std::invalid_argument` unless one tolerance is given, and in a unit that the truth can
-/// tell. O(matches log matches + matches * frames).
+/// Compares matches with the truth (SSS 4.2; counting as in `Evaluation`). Throws `vo::Error` if a frame is
+/// outside the truth, `std::invalid_argument` unless one tolerance is given, in a unit that the truth
+/// supports. O(matches log matches + matches * frames).
 RunEvaluation evaluate(std::span<const Match> matches, const GroundTruth& truth, const Tolerance& tolerance);
 
 }  // namespace place

@@ -19,7 +19,7 @@ struct SweepAxis {
 /// A cell of a sweep: one value for each axis.
 using SweepCell = std::vector<std::string>;
 
-/// What came out of a cell.
+/// The outcome of a cell.
 struct CellResult {
   std::size_t query_keyframes = 0;
   std::size_t reference_keyframes = 0;
@@ -30,14 +30,14 @@ struct CellResult {
 /// None for a cell that cannot be run: a walk without steps, a route shorter than the sequence.
 using SweepResults = std::map<SweepCell, std::optional<CellResult>>;
 
-/// `NAME=a,b,c`. Throws `vo::Error` for anything else.
+/// Parses `NAME=a,b,c`. Throws `vo::Error` for anything else.
 SweepAxis parse_axis(const std::string& text);
 
 /// Every cell, the last axis fastest.
 std::vector<SweepCell> all_cells(const std::vector<SweepAxis>& axes);
 
-/// The settings of a cell: `base` with the axes' values in it. Throws `vo::Error` naming a setting that there
-/// is not, that is fixed once a walk is read, or that does not take its value.
+/// The settings of a cell: `base` with the axes' values. Throws `vo::Error` naming a setting that does not
+/// exist, is fixed once a walk is read, or does not accept its value.
 Settings settings_at(const Settings& base, const std::vector<SweepAxis>& axes, const SweepCell& cell);
 
 /// True if the setting changes keyframes or their descriptors, and so the cost matrix.
@@ -46,7 +46,7 @@ bool shapes_the_matrix(const std::string& setting);
 /// sweep.csv: a row for each cell, those of the grid first and in its order.
 std::string sweep_csv(const std::vector<SweepAxis>& axes, const SweepResults& results);
 
-/// Reads it back; empty if it is not there. Throws `vo::Error` if it is of other axes.
+/// Reads it back; empty if there is no file. Throws `vo::Error` if it has other axes.
 SweepResults read_sweep(const std::filesystem::path& path, const std::vector<SweepAxis>& axes);
 
 }  // namespace place

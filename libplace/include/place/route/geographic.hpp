@@ -16,7 +16,7 @@ struct GeographicPoint {
 };
 
 /// Metres east and north of the origin, on the plane that touches the ellipsoid there; over a walk's few
-/// kilometres within a few metres of the way over the ground, and the exact inverse of `geographic_at`.
+/// kilometres within a few metres of distances on the ground, and the exact inverse of `geographic_at`.
 /// Throws `std::invalid_argument` for latitudes beyond 89 degrees.
 vo::Pose2 local_at(const GeographicOrigin& origin, const GeographicPoint& point);
 GeographicPoint geographic_at(const GeographicOrigin& origin, double x_m, double y_m);
@@ -25,7 +25,7 @@ GeographicPoint geographic_at(const GeographicOrigin& origin, double x_m, double
 std::string to_geojson(const vo::Trajectory& trajectory, const GeographicOrigin& origin);
 
 /// A track of GPX 1.1, to a centimetre and a millisecond, which `read_track` reads. `start_utc_s`: when the
-/// walk began, in seconds since 1970; without it times count from 1970 itself, which the file says.
+/// walk began, in seconds since 1970; without it times count from 1970 itself, and the file says so.
 std::string to_gpx(const vo::Trajectory& trajectory, const GeographicOrigin& origin,
                    std::optional<double> start_utc_s = std::nullopt);
 

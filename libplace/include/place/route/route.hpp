@@ -12,8 +12,7 @@
 #include <vo/base/pose2.hpp>
 #include <vo/image/image_stack.hpp>
 
-/// What is known of a route: plain data, that `new_route` and `add` fill, `write_route` keeps and `localise`
-/// reads.
+/// A route as plain data, which `new_route` and `add` fill, `write_route` stores and `localise` reads.
 namespace place {
 
 /// A place on a traverse.
@@ -30,46 +29,45 @@ struct Keyframe {
 /// One walk along a route.
 struct Traverse {
   std::string name;         ///< unique in its route
-  std::string source;       ///< what it was built from, without folders
+  std::string source;       ///< the recording it was built from, without folders
   std::int64_t frames = 0;  ///< of the source
-  double duration_s = 0;    ///< from first to last frame
+  double duration_s = 0;    ///< from the first to the last frame
   int frame_width_px = 0;
   int frame_height_px = 0;
   std::string pose_source;  ///< file the poses came from, without folders; empty if none
-  bool surveyed = true;     ///< false: the poses are the walk's own odometry, from where it began
+  bool surveyed = true;     ///< false: the poses are the walk's own odometry, relative to its start
   std::vector<Keyframe> keyframes;
-  std::vector<Descriptors> descriptors;  ///< of each of the route's descriptors, one for each keyframe
-  /// One for each keyframe, kept as previews are; empty where they were not, or where they are the
-  /// descriptors.
+  std::vector<Descriptors> descriptors;  ///< for each of the route's descriptors, one per keyframe
+  /// One for each keyframe, if previews are kept; empty otherwise, or where they are the descriptors.
   vo::ImageStack thumbnails;
-  Settings settings;  ///< resolved, that shaped it
+  Settings settings;  ///< resolved settings that shaped it
 };
 
-/// Where on the earth a route's poses are (0, 0): x goes east, y north.
+/// The place on the earth of a route's (0, 0): x points east, y north.
 struct GeographicOrigin {
   double latitude_deg = 0;   ///< WGS 84
   double longitude_deg = 0;  ///< WGS 84
 };
 
-/// A reference route: any number of traverses of it, by day, by night.
+/// A reference route: any number of traverses, by day or by night.
 struct Route {
-  Settings settings;  ///< that walks on it take over (`kept_by_route`)
+  Settings settings;  ///< that walks on it adopt (`kept_by_route`)
   double unit = 0;  ///< between keyframes, in the displacement's unit (SSS Eq. 4's u, of the first traverse);
                     ///< 0 without motion
-  bool metric = false;  ///< that unit is the metre; otherwise frames at the first traverse's mean speed
+  bool metric = false;  ///< displacement is in metres; otherwise in frames at the first traverse's mean speed
   std::vector<Bytes> learned;  ///< by each descriptor from the first traverse (`Descriptor::learn`)
   std::vector<Traverse> traverses;
-  std::optional<GeographicOrigin> origin;  ///< where the surveyed poses are geographic
+  std::optional<GeographicOrigin> origin;  ///< if the surveyed poses are geographic
   std::string software_version;            ///< of the program that wrote it
 };
 
-/// The thumbnails of a traverse's keyframes, wherever they are; null if it has none.
+/// The thumbnails of a traverse's keyframes, wherever they are stored; null if it has none.
 const vo::ImageStack* thumbnails_of(const Traverse& traverse);
 
 /// The keyframes of a traverse before which its recording was interrupted: no sequence crosses one.
 std::vector<std::size_t> gaps_of(const Traverse& traverse);
 
-/// True if any keyframe has a pose that a query could be put among.
+/// True if any keyframe has a pose to place a query with.
 bool has_poses(const Route& route);
 
 }  // namespace place

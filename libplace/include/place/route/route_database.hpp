@@ -6,23 +6,23 @@
 
 namespace place {
 
-/// The layout of the file; files of another layout are refused.
+/// The layout of the file; files with another layout are refused.
 inline constexpr int kRouteSchemaVersion = 5;
 
-/// What to leave in the file.
+/// What to read.
 struct RouteReadOptions {
   bool previews = true;  ///< read the pictures and thumbnails too
 };
 
-/// Reads a route database: one SQLite file, opened read-only. Descriptors lie in chunks of 256, each with a
-/// checksum. Throws `vo::Error` naming the file if there is none, it is no route database, was written by a
-/// another version, or is damaged (a broken page, a missing row, a chunk of descriptors that does not fit its
-/// checksum). O(file).
+/// Reads a route database: one SQLite file, opened read-only. Descriptors are stored in chunks of 256, each
+/// with a checksum. Throws `vo::Error` naming the file if it does not exist, is not a route database, was
+/// written by another version, or is damaged (a broken page, a missing row, a chunk of descriptors that does
+/// not match its checksum). O(file).
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options = {});
 
-/// Writes a route, over what is at `path`; the file is the old one or the new one at any moment. Equal routes
-/// give equal bytes. Throws `vo::Error` if it cannot be written, `std::invalid_argument` if a traverse's
-/// descriptors do not fit its keyframes or the other traverses', or two traverses share a name.
+/// Writes a route, replacing the file at `path`, which is the old one or the new one at any moment. Equal
+/// routes give equal bytes. Throws `vo::Error` if it cannot be written, `std::invalid_argument` if a
+/// traverse's descriptors do not match its keyframes or the other traverses', or two traverses share a name.
 void write_route(const std::filesystem::path& path, const Route& route);
 
 }  // namespace place

@@ -10,31 +10,31 @@ namespace place {
 /// Settings of `RouteLock`.
 struct RouteLockOptions {
   double wait_s = 30;             ///< how long to wait for another writer
-  std::function<void()> waiting;  ///< called once, when it begins to wait
+  std::function<void()> waiting;  ///< called once, when waiting begins
 };
 
-/// The right to change a route's file, for one writer at a time, of this process or another: from before the
-/// route is read until it is written, so that of two walks added at once neither is lost.
+/// The right to change a route's file, for one writer at a time, in this process or another: held from before
+/// the route is read until it is written, so that two walks added at the same time are both kept.
 ///
-/// It is a lock of the system's on a hidden file beside the route (`flock` on `.route.db.lock`), which ends
-/// with the process that holds it, however that ends; the file is removed with the lock, and one that a dead
-/// process left behind stops nobody. On file systems without locks there is still `check_unchanged`. Readers
-/// need none: a route's file is replaced whole.
+/// It is a system lock on a hidden file next to the route (`flock` on `.route.db.lock`), which is released
+/// when the process that holds it ends in any way; the file is removed with the lock, and one left behind by
+/// a dead process blocks nobody. On file systems without locks, `check_unchanged` still protects. Readers
+/// need no lock: a route's file is replaced whole.
 class RouteLock {
  public:
-  /// Waits for the lock. Throws `vo::Error` naming the route if another writer keeps it, or the folder cannot
+  /// Waits for the lock. Throws `vo::Error` naming the route if another writer keeps it or the folder cannot
   /// be written; `std::invalid_argument` for a wait below 0.
   explicit RouteLock(const std::filesystem::path& route, const RouteLockOptions& options = {});
   ~RouteLock();
   RouteLock(const RouteLock&) = delete;
   RouteLock& operator=(const RouteLock&) = delete;
 
-  /// Throws `vo::Error` if the route's file is another one than when the lock was taken: a program that knows
-  /// nothing of the lock, or a file system without locks. To be called right before writing.
+  /// Throws `vo::Error` if the route's file was replaced since the lock was taken, by a program that ignores
+  /// the lock or on a file system without locks. Call it right before writing.
   void check_unchanged() const;
 
  private:
-  /// What tells a file from what replaced it.
+  /// Distinguishes a file from its replacement.
   struct Stamp {
     std::uint64_t inode = 0;
     std::int64_t size = 0, changed_s = 0, changed_ns = 0;
@@ -43,7 +43,7 @@ class RouteLock {
   static std::optional<Stamp> stamp(const std::filesystem::path& file);
 
   std::filesystem::path route_;
-  std::filesystem::path file_;  ///< the lock's
+  std::filesystem::path file_;  ///< the lock file
   int descriptor_ = -1;
   std::optional<Stamp> stamp_;
 };

@@ -12,39 +12,38 @@
 
 namespace place {
 
-/// A track: where one was, and when.
+/// A track: places and times.
 struct GeographicTrack {
-  std::vector<double> time_s;           ///< strictly increasing; of a GPX file since its first point
-  std::vector<GeographicPoint> points;  ///< as many
-  std::vector<std::size_t> segment;   ///< of each point; between two of them nothing is known. Empty: all one
-  std::optional<double> start_utc_s;  ///< seconds since 1970 at time 0, where the file's clock says it
+  std::vector<double> time_s;           ///< strictly increasing; for a GPX file, since its first point
+  std::vector<GeographicPoint> points;  ///< one for each time
+  std::vector<std::size_t> segment;     ///< of each point; nothing is known between two. Empty: all one
+  std::optional<double> start_utc_s;    ///< seconds since 1970 at time 0, if the file's clock says so
   std::vector<std::string> warnings;  ///< what a user should know: points left out, other tracks in the file
 };
 
 /// Settings of `read_track`.
 struct TrackOptions {
-  std::string
-      track_name;  ///< of a GPX file's tracks the one so called, or its number from 1; empty: see below
-  std::optional<double> video_start_utc_s;  ///< when the walk began, where its video says it
+  std::string track_name;  ///< track to read from a GPX file, or its number from 1; empty: see below
+  std::optional<double> video_start_utc_s;  ///< when the walk began, if its video says so
   double video_duration_s = 0;
 };
 
 /// Reads a track: a GPX file, or a CSV file with columns time_s, latitude_deg (or lat_deg), longitude_deg (or
-/// lon_deg), whose times are taken as they are.
+/// lon_deg), whose times are used unchanged.
 ///
-/// Of a GPX file every `trkpt` with a place and a time counts, whatever its encoding, name space prefix or
-/// time zone; segments are put in order of time. Points without place or time, out of order of time within a
-/// segment, or with a time that is there already are left out and counted in `warnings`, as is a file that is
-/// cut off. Of several tracks the one asked for by name is read, otherwise the one of which most was recorded
-/// during the video, otherwise the latest; a warning names them. A file that counts from 1970 (`to_gpx`
-/// without a start) has times since the walk's first frame.
+/// In a GPX file every `trkpt` with a place and a time counts, in any encoding, name space prefix or time
+/// zone; segments are sorted by time. Points without place or time, out of order within a segment, or with a
+/// repeated time are left out and counted in `warnings`, as is a file that is cut off. Of several tracks, the
+/// one asked for by name is read, otherwise the one with most time during the video, otherwise the latest; a
+/// warning names them. A file that counts from 1970 (`to_gpx` without a start) has times since the walk's
+/// first frame.
 ///
-/// Throws `vo::Error` naming the file if it is neither, has no track (a route, waypoints), no track of that
+/// Throws `vo::Error` naming the file if it is neither, has no track (a route, waypoints), no track with that
 /// name, or fewer than two usable points. O(n log n).
 GeographicTrack read_track(const std::filesystem::path& path, const TrackOptions& options = {});
 
-/// The track as poses about an origin; heading is that of the path over `heading_m` metres, so that the
-/// receiver's noise does not turn it (`vo::head_along_path`), of each segment by itself. O(n).
+/// The track as poses relative to an origin; heading is that of the path over `heading_m` metres, so that the
+/// receiver's noise does not affect it (`vo::head_along_path`), for each segment separately. O(n).
 vo::Trajectory local_trajectory(const GeographicTrack& track, const GeographicOrigin& origin,
                                 double heading_m = vo::kPathHeading_m);
 

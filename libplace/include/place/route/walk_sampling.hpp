@@ -22,59 +22,57 @@ struct WalkSamplingOptions {
   vo::MotionSource source = vo::MotionSource::kSad;
   int every = 1;                    ///< frames between keyframes, with `kNone`
   std::optional<double> n;          ///< SSS Eq. 4's n, with motion
-  std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4, where the motion is metric
-  bool tie_scale = true;  ///< bring a walk to the spacing of the route's first traverse (`relative_scale`)
-  /// What keyframes are described by; null: thumbnails, by the motion's patches.
+  std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4, if the motion is metric
+  bool tie_scale = true;  ///< scale a walk to the spacing of the route's first traverse (`relative_scale`)
+  /// What keyframes are described with; null: thumbnails, with the motion's patches.
   std::shared_ptr<const DescriptorSet> descriptors;
   std::optional<int> max_shift_px;  ///< see `descriptor_costs`
   RelativeScaleOptions relative_scale;
-  /// The same where both walks are in metres: by their steps, whose lengths differ by a tenth or two where
-  /// speeds differ by half.
+  /// The same if both walks are in metres, from steps: their lengths differ by a tenth or two where speeds
+  /// differ by half.
   RelativeScaleOptions metric_scale{.prior_weight = 1};
 };
 
-/// A walk cut down to its keyframes.
+/// A walk reduced to its keyframes.
 struct SampledWalk {
   std::vector<std::size_t> frames;  ///< of the walk, strictly increasing
   std::vector<double>
       displacement;           ///< of every frame of the walk since the one before; empty without motion
   vo::ImageStack thumbnails;  ///< of the keyframes
-  std::vector<Descriptors> descriptors;  ///< of the keyframes, by each of the descriptors
-  std::vector<Bytes> learned;    ///< that the descriptors were made with: the route's, or of this walk
-  vo::MotionModel motion_model;  ///< of alignment error, learned on the walk; nothing in it without
-  bool metric = false;           ///< the displacement came in metres
+  std::vector<Descriptors> descriptors;  ///< of the keyframes, for each of the descriptors
+  std::vector<Bytes> learned;            ///< used by the descriptors: the route's, or from this walk
+  vo::MotionModel motion_model;          ///< of alignment error, learned on the walk; empty without
+  bool metric = false;                   ///< the displacement was in metres
   vo::Trajectory trajectory;  ///< by that motion, at every frame; empty unless metres and headings are known
   double scale = 1;           ///< the displacement was multiplied by this to fit the route's
-  double scale_gain = 0;      ///< how sure the best scale is, used or not (`RelativeScale::gain`)
+  double scale_gain = 0;      ///< certainty of the best scale, used or not (`RelativeScale::gain`)
   double unit = 0;            ///< displacement between keyframes (SSS Eq. 4); 0 without motion
-  std::vector<std::string> warnings;  ///< what a user should know of the motion and the keyframes
+  std::vector<std::string> warnings;  ///< what a user should know about the motion and keyframes
 };
 
 /// Samples a walk (SSS 3.3) and describes its keyframes. With motion, keyframes are a unit of displacement
-/// apart: `spacing_m` where the motion is metric, else by Eq. 4 with `n`. A walk on a route takes the unit
-/// that the route's first traverse gave it, in the proportion in which its own `n` or `spacing_m` differs
-/// from the route's, and its scale is tied to that traverse, where the matches show it clearly
-/// (`RelativeScale`). After a gap too long to be filled (`vo::parts_walk`), of which nobody knows how far it
-/// led, sampling begins anew. `route`: null, or without traverses, for a first walk, which the descriptors
-/// learn from.
+/// apart: `spacing_m` if the motion is metric, else from Eq. 4 with `n`. A walk on a route uses the unit of
+/// the route's first traverse, adjusted in proportion if its own `n` or `spacing_m` differs from the route's,
+/// and its scale is tied to that traverse if the matches show it clearly (`RelativeScale`). After a gap too
+/// long to fill (`vo::parts_walk`), whose distance is unknown, sampling restarts. `route`: null, or without
+/// traverses, for a first walk, which the descriptors learn from.
 ///
-/// Throws `vo::Error` naming the walk if it shows no motion to learn from, or no metres though only
-/// `spacing_m` says how dense keyframes are; `std::invalid_argument` if neither does, or if the walk was read
-/// without what the descriptors record.
+/// Throws `vo::Error` naming the walk if it shows no motion to learn from, or has no metres but only
+/// `spacing_m` is given; `std::invalid_argument` if neither is, or if the walk was read without what the
+/// descriptors record.
 SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options,
                         const Route* route = nullptr);
 
-/// What poses and distances a walk's frames have, where they were surveyed (or its odometry, without
-/// distances).
+/// The surveyed poses and distances of a walk's frames (or its odometry, without distances).
 struct Survey {
   std::string source;                             ///< the file's name
   bool surveyed = true;                           ///< false: the walk's own odometry
   std::vector<std::optional<vo::Pose2>> pose;     ///< by frame
   std::vector<std::optional<double>> distance_m;  ///< by frame
-  std::vector<std::string> warnings;              ///< what a user should know of the file
+  std::vector<std::string> warnings;              ///< what a user should know about the file
 };
 
-/// Makes a traverse of a sampled walk. Throws `std::invalid_argument` if the survey is of another number of
+/// Makes a traverse of a sampled walk. Throws `std::invalid_argument` if the survey has another number of
 /// frames.
 Traverse make_traverse(const std::string& name, const vo::Walk& walk, const SampledWalk& sampled,
                        const std::optional<Survey>& survey);
