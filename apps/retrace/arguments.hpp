@@ -22,7 +22,7 @@ struct CommonOptions {
   bool json = false;
 };
 
-/// One argument of a command, to say more of it.
+/// One argument of a command, to refine it.
 class Argument {
  public:
   explicit Argument(CLI::Option* option) : option_(option) {}
@@ -43,12 +43,11 @@ class Argument {
   CLI::Option* option_;
 };
 
-/// The arguments of one command: what it declares here is parsed, checked and explained by --help. CLI11 lies
-/// behind it.
+/// The arguments of one command: everything declared here is parsed, checked and explained by --help. CLI11
+/// does the work.
 ///
-/// Targets must live as long as the command; what is in them before is the default. Types: std::string, int,
-/// std::size_t, std::uint64_t, double, std::optional of these, and std::vector of std::string or
-/// std::size_t.
+/// Targets must live as long as the command; their initial values are the defaults. Types: std::string, int,
+/// std::size_t, std::uint64_t, double, std::optional of these, and std::vector of std::string or std::size_t.
 class Arguments {
  public:
   /// `all`: --help shows every setting, not only those that most people use.
@@ -82,8 +81,8 @@ class Arguments {
   /// Exactly one of these must be given.
   void exactly_one(std::initializer_list<Argument> arguments);
 
-  /// The settings of these groups as flags, and --config, a file of settings below the flags. `target` holds
-  /// what was given, once all is parsed.
+  /// The settings of these groups as flags, and --config, a file of settings that flags override. `target`
+  /// holds the given settings after parsing.
   void settings(place::Settings& target, std::initializer_list<place::SettingGroup> groups,
                 const std::vector<std::string>& without = {});
   /// --force and --json.
@@ -94,7 +93,7 @@ class Arguments {
   /// Lines below the help: examples.
   void footer(const std::string& text);
 
-  /// Puts what --config names below the flags. Called once all is parsed. Throws `vo::Error` for a file that
+  /// Adds the settings of --config below the flags. Called after parsing. Throws `vo::Error` for a file that
   /// cannot be read as settings.
   void finish();
 

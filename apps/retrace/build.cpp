@@ -31,7 +31,7 @@ struct BuildOptions {
   SurveyFiles survey;
 };
 
-/// The traverse's name where none is given: the recording's, without folders and ending.
+/// The default name of the traverse: the recording's, without folders and extension.
 std::string default_name(const std::string& walk) {
   std::filesystem::path path(walk);
   if (!path.has_filename()) path = path.parent_path();  // "folder/"

@@ -6,11 +6,11 @@
 
 namespace retrace {
 
-/// What a walk is given as, for help.
+/// The accepted forms of a walk, for help.
 inline constexpr const char* kWalkArgument =
     "video file, folder of images, or camera:N; several files in order are one walk";
 
-/// Declares a command's arguments and gives what it does once they are parsed.
+/// Declares a command's arguments and returns the action to run after parsing.
 using Declare = std::function<void()>(Arguments&);
 
 Declare declare_build, declare_localise, declare_correct, declare_evaluate, declare_odometry,

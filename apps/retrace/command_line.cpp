@@ -82,7 +82,7 @@ std::deque<Declared> declare_all(CLI::App& root, bool all) {
   return commands;
 }
 
-/// The completions of a shell, or a page of the manual, made of what is declared.
+/// The completions of a shell, or a page of the manual, from the declarations.
 void add_documents(CLI::App& root, const CLI::App& documented) {
   CLI::App* completion = root.add_subcommand("completion", "write the completions of a shell");
   auto shell = std::make_shared<std::string>();
@@ -99,7 +99,7 @@ void add_documents(CLI::App& root, const CLI::App& documented) {
   manual->callback([command, &documented] { fmt::print("{}", manual_page(documented, *command)); });
 }
 
-/// CLI11 writes the upper bound of "positive" out, with its 309 digits.
+/// CLI11 prints the upper bound of "positive" with all its 309 digits.
 std::string without_endless_bounds(std::string message) {
   const std::size_t range = message.find(" not in range "), bound = message.find(" to 179769");
   if (range != std::string::npos && bound != std::string::npos)
@@ -107,7 +107,7 @@ std::string without_endless_bounds(std::string message) {
   return message;
 }
 
-/// The nearest flag of the command to the first that it does not have.
+/// The command's flag that is nearest to the first unknown one.
 std::string hint_for(const CLI::App& root) {
   const auto chosen = root.get_subcommands();
   const CLI::App& app = chosen.empty() ? root : *chosen.front();
@@ -174,17 +174,18 @@ int run(int argc, char** argv) {
 
 extern "C" int retrace_run(int argc, char** argv) {
 #if defined(__GLIBC__)
-  // Frames come and go by the thousand: memory given back to the system would be faulted in again for each.
+  // Thousands of frames are allocated and freed: memory returned to the system would be faulted in again for
+  // each.
   mallopt(M_MMAP_THRESHOLD, 64 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
-  // FFmpeg and OpenCV print to stderr on their own; what matters of it reaches the user through our messages.
+  // FFmpeg and OpenCV print to stderr on their own; what matters reaches the user through our messages.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  cv::setNumThreads(1);  // frames are spread over threads, so what is done within one is not
+  cv::setNumThreads(1);  // frames are spread over threads, so work within a frame is not
   spdlog::set_default_logger(spdlog::stderr_logger_st("retrace"));
   spdlog::set_pattern("retrace: %l: %v");
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then is a failed write with its reason, not a kill
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then fails a write, with its reason, and kills nothing
   try {
     return run(argc, argv);
   } catch (const vo::Error& error) {

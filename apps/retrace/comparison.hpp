@@ -10,7 +10,7 @@
 
 namespace retrace {
 
-/// A run as it is compared.
+/// A run to compare.
 struct ComparedRun {
   std::string name;
   std::string folder;
@@ -18,7 +18,7 @@ struct ComparedRun {
   place::RunBootstrap bootstrap;
 };
 
-/// What all of them have in common.
+/// What all runs have in common.
 struct Comparison {
   std::vector<ComparedRun> runs;
   double tolerance = 0;
@@ -32,7 +32,7 @@ struct Comparison {
 Comparison compare_runs(const std::vector<std::string>& folders, const std::vector<std::string>& names,
                         const place::BootstrapOptions& options);
 
-/// comparison.json: every run's figures with their intervals, and the differences of every two.
+/// comparison.json: every run's figures with their intervals, and the differences of every pair.
 nlohmann::ordered_json comparison_json(const Comparison& comparison);
 
 }  // namespace retrace

@@ -25,7 +25,7 @@ struct CorrectOptions {
   std::string odometry;
 };
 
-/// When the run's walk began, where its summary says it.
+/// When the run's walk began, if its summary says so.
 std::optional<double> start_utc_s(const fs::path& folder) {
   std::ifstream file(folder / "summary.json");
   const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);

@@ -36,7 +36,7 @@ void demo(const DemoOptions& options) {
   place::Settings by_steps;
   by_steps.descriptor = kDemoDescriptor;
   by_steps.motion = "steps";
-  by_steps.search = "lines";  // SeqSLAM's, with and without its walks brought to one speed
+  by_steps.search = "lines";  // SeqSLAM's, with and without speed normalisation
 
   const fs::path folder = options.output;
   prepare_run_directory(folder, {"day", "night", "route.db", "vanilla", "normalised", "overview.png"},

@@ -9,14 +9,14 @@
 
 namespace retrace {
 
-/// What came out of a demo.
+/// The results of a demo.
 struct DemoResults {
   std::uint64_t seed = 1;
   double length_m = 0;
   const DemoRun& vanilla;
   const DemoRun& normalised;
   std::filesystem::path overview;
-  double seconds = 0;  ///< that it took
+  double seconds = 0;  ///< duration
 };
 
 nlohmann::ordered_json demo_json(const DemoResults& results);

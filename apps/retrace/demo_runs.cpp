@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kReference = "day";
 
-/// Half a demo is none: Ctrl-C ends it.
+/// Half a demo is useless: Ctrl-C ends it.
 vo::ProgressCallback or_interrupted(ProgressBar& bar) {
   return [show = bar.callback()](const vo::Progress& progress) {
     if (!show(progress)) throw vo::Error(progress.stage, "was interrupted");
@@ -34,7 +34,7 @@ vo::ProgressCallback or_interrupted(ProgressBar& bar) {
   };
 }
 
-/// The first frame of the video at which the walker had come so far.
+/// The first frame of the video at which the walker had covered this distance.
 cv::Mat view_at(const DrawnWalk& drawn, double distance_m) {
   const std::vector<double> along = vo::read_truth(drawn.truth()).distance_m;
   const auto index = std::ranges::lower_bound(along, distance_m) - along.begin();

@@ -10,11 +10,11 @@
 #include <place/place.hpp>
 #include <simulate/recorder.hpp>
 
-/// What `retrace demo` does with its two walks: the program of `build`, `localise` and `evaluate`.
+/// What `retrace demo` does with its two walks: the same as `build`, `localise` and `evaluate`.
 namespace retrace {
 
 constexpr double kDemoTolerance_m = 4;  // SSS 4.2
-/// The papers' descriptor, which shows what the sampling does: blocks find this walk either way.
+/// The papers' descriptor, which shows the effect of sampling: blocks find this walk either way.
 constexpr const char* kDemoDescriptor = "thumbnail";
 
 /// A walk drawn into a folder and read back from its video.
@@ -26,7 +26,7 @@ struct DrawnWalk {
   [[nodiscard]] std::string truth() const { return (folder / "truth.csv").string(); }
 };
 
-/// The night walk found on the day walk, by one way of sampling.
+/// The night walk found on the day walk, with one kind of sampling.
 struct DemoRun {
   std::filesystem::path folder;
   int every = 0;  ///< frames between keyframes, without motion
@@ -35,11 +35,12 @@ struct DemoRun {
   place::RunEvaluation evaluated;
 };
 
-/// The two walks: by day slow, then fast; by night by another walker, a little aside, fast, then slow.
+/// The two walks: by day slow, then fast; by night another walker, a little to the side, fast, then slow.
 simulate::Options demo_day(std::uint64_t seed, double length_m);
 simulate::Options demo_night(const simulate::Options& by_day);
 
-/// Draws a walk into a folder and reads it. Throws `vo::Error` if the user stopped it: half a demo is none.
+/// Draws a walk into a folder and reads it. Throws `vo::Error` if the user stopped it: half a demo is
+/// useless.
 DrawnWalk draw_and_read(const simulate::Options& options, const std::filesystem::path& folder,
                         const place::Settings& settings);
 
@@ -47,7 +48,7 @@ DrawnWalk draw_and_read(const simulate::Options& options, const std::filesystem:
 DemoRun find_night_on_day(const DrawnWalk& day, const DrawnWalk& night, const place::Settings& settings,
                           const std::filesystem::path& route_file, const std::filesystem::path& folder);
 
-/// Settings that keep every K-th frame, such that there are about as many keyframes as `run` has.
+/// Settings that keep every K-th frame, so that there are about as many keyframes as in `run`.
 place::Settings vanilla_like(const DemoRun& run, const DrawnWalk& day, const DrawnWalk& night);
 
 /// A PNG: the same place by day and by night, and the cost matrices of both runs with their matches.

@@ -28,11 +28,11 @@ struct EvaluateOdometryOptions {
   CommonOptions common;
   std::vector<std::string> folders;  ///< written by `retrace odometry`
   std::string kitti_poses;
-  std::vector<std::string> truths;  ///< of each: truth.csv, or a way on a map
+  std::vector<std::string> truths;  ///< for each: truth.csv, or a path on a map
   std::optional<double> map_scale_m_per_px;
   std::string map_image;
-  std::vector<std::size_t> true_steps;  ///< of each, or none
-  std::string output;                   ///< folder for what is measured on all walks together
+  std::vector<std::size_t> true_steps;  ///< for each, or none
+  std::string output;                   ///< folder for the errors over all walks together
   place::OdometryEvaluationOptions evaluation;
 };
 

@@ -90,7 +90,7 @@ constexpr std::array kCurveColumns{
                                   [](const OperatingPoint& p) { return std::to_string(p.false_negatives); }},
 };
 
-/// A row of errors.csv: what was made of a query keyframe. `retrace compare` resamples it.
+/// A row of errors.csv: the result for a query keyframe. `retrace compare` resamples it.
 struct ErrorRow {
   std::int64_t query_frame = 0;
   double query_time_s = 0;

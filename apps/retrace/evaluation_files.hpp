@@ -10,13 +10,13 @@
 
 namespace retrace {
 
-/// Holds a run against the truth (`place::evaluate`) and writes metrics.json, pr.csv, errors.csv and
-/// report.html into its folder. Gives the evaluation, and what metrics.json holds. Throws `vo::Error` if
-/// there is no such run, or the truth gives none of its keyframes a true place.
+/// Compares a run with the truth (`place::evaluate`) and writes metrics.json, pr.csv, errors.csv and
+/// report.html into its folder. Returns the evaluation and the contents of metrics.json. Throws `vo::Error`
+/// if there is no such run, or the truth gives none of its keyframes a true place.
 std::pair<place::RunEvaluation, nlohmann::ordered_json> evaluate_folder(const std::filesystem::path& folder,
                                                                         const TruthOptions& truth);
 
-/// What errors.csv of an evaluated run holds. Throws `vo::Error` if there is none.
+/// The contents of errors.csv of an evaluated run. Throws `vo::Error` if there is none.
 place::TimedQueries read_errors(const std::filesystem::path& folder);
 
 /// Tolerance and unit in metrics.json of an evaluated run. Throws `vo::Error` if there is none.

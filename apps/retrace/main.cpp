@@ -9,14 +9,14 @@
 
 #include <place/version.hpp>
 
-/// Answers --version by itself; for anything else loads the module beside it.
+/// Answers --version by itself; for anything else loads the module next to it.
 int main(int argc, char** argv) {
   if (argc == 2 && argv[1] == std::string_view("--version")) {
     fmt::print("retrace {}\n", place::kVersion);
     return std::fflush(stdout) == 0 ? 0 : 1;
   }
-  // Read when the OpenMP runtime is loaded, which the module brings: its threads sleep while they wait, and
-  // leave the processor to those of the video decoder. What the user says goes before.
+  // Read when the OpenMP runtime is loaded with the module: its threads sleep while they wait, and leave the
+  // processor to the video decoder. The user's own settings take precedence.
   setenv("OMP_WAIT_POLICY", "passive", 0);
   void* const module = dlopen(RETRACE_COMMANDS, RTLD_LAZY);
   void* const run = module != nullptr ? dlsym(module, "retrace_run") : nullptr;

@@ -27,7 +27,7 @@ struct OdometryOptions {
   bool close_loops = false;
 };
 
-/// The step length that makes the steps seen as long as the walk is known to be.
+/// The step length with which the steps seen add up to the walk's known distance.
 double measured_step_length_m(const OdometryOptions& options, const vo::Walk& walk,
                               const vo::PedestrianMotionOptions& pedestrian) {
   const double steps = vo::steps_made(vo::pedestrian_motion(walk, pedestrian).detection);

@@ -13,16 +13,16 @@
 
 namespace retrace {
 
-/// The truth about a walk: poses with times, or else its path drawn on a map, in metres.
+/// The truth of a walk: poses with times, or else its path drawn on a map, in metres.
 struct WalkTruth {
   std::optional<std::size_t> steps;
   vo::WalkTruth walk;
   std::vector<place::WayPoint> way;
 };
 
-/// Reads truth.csv, or a path on a map (x_px,y_px, y downwards, north up) for which the metres of a pixel are
-/// given. `counted_steps` goes before the steps of the file. Throws `vo::Error` naming the file if it is
-/// neither, or is a path on a map without a scale, or the other way round.
+/// Reads truth.csv, or a path on a map (x_px,y_px, y downwards, north up) for which the metres per pixel are
+/// given. `counted_steps` overrides the steps of the file. Throws `vo::Error` naming the file if it is
+/// neither, if it is a path on a map and no scale is given, or if it is not and one is.
 WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& map_scale_m_per_px,
                           const std::optional<std::size_t>& counted_steps);
 
@@ -41,7 +41,7 @@ OdometryMeasured pooled(const std::vector<OdometryMeasured>& walks);
 nlohmann::ordered_json odometry_metrics_json(const OdometryMeasured& measured,
                                              const place::OdometryEvaluationOptions& options);
 
-/// Throws `vo::Error` unless the trajectory in the folder is in metres: metres are held against metres only.
+/// Throws `vo::Error` unless the trajectory in the folder is in metres, which the truth is compared in.
 void check_metres(const std::filesystem::path& folder);
 
 /// The errors at each distance, on standard output.

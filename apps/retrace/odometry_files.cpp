@@ -25,23 +25,23 @@ using nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// What displacements are measured in: without steps, visual odometry has a unit of its own, and alignment
-/// error has seconds at mean speed.
+/// The unit of displacements: without steps, visual odometry has its own unit, and alignment error has
+/// seconds at mean speed.
 std::string_view unit_of(const vo::Walk& walk, const vo::WalkMotion& motion) {
   if (motion.metric) return "m";
   return walk.track ? "units" : "s";
 }
 
-/// What a source by itself tells of a frame, in a unit of its own.
+/// A single source's displacement of a frame, in its own unit.
 struct Told {
   std::optional<double> displacement;
   int unit = 0;
 };
 
-/// The same with all frames of one unit brought to the length that `motion` has over them.
+/// The same with all frames of one unit scaled to the length that `motion` has over them.
 std::vector<std::optional<double>> to_common_unit(const std::vector<Told>& told,
                                                   const vo::WalkMotion& motion) {
-  std::map<int, std::pair<double, double>> lengths;  // by unit: as told, of `motion`
+  std::map<int, std::pair<double, double>> lengths;  // for each unit: the source's length, and `motion`'s
   for (std::size_t i = 0; i < told.size(); ++i) {
     if (!told[i].displacement) continue;
     auto& [own, common] = lengths[told[i].unit];

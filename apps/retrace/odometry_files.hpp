@@ -13,20 +13,20 @@ namespace retrace {
 /// The files that `retrace odometry` writes.
 extern const std::vector<std::string> kOdometryFiles;
 
-/// What is written only if it was asked for.
+/// Results that are written only on request.
 struct OdometryExtras {
-  const place::ClosedLoops* loops = nullptr;  ///< the trajectory with them, and the one before
+  const place::ClosedLoops* loops = nullptr;  ///< the trajectory with loops, and the one before
   bool visual_odometry = false;               ///< visual_odometry.csv and .tum
 };
 
-/// What is said of the walk.
+/// Facts about the walk.
 struct WrittenOdometry {
   double distance = 0;
   std::string unit;     ///< of the distance: m, or frames or units without metres
-  std::string summary;  ///< what summary.json holds
+  std::string summary;  ///< contents of summary.json
 };
 
-/// Writes a walk's odometry into a folder that is there: frames.csv, steps.csv, activity.csv, trajectory.tum,
+/// Writes a walk's odometry into an existing folder: frames.csv, steps.csv, activity.csv, trajectory.tum,
 /// summary.json, config.toml and the report. `walked`: with steps.
 WrittenOdometry write_odometry(const std::filesystem::path& folder, const vo::Walk& walk,
                                const vo::WalkMotion& walked, const place::Settings& settings,

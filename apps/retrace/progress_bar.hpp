@@ -9,7 +9,7 @@
 namespace retrace {
 
 /// Shows progress on stderr: a bar with rate and time left on a terminal, otherwise a line every ten seconds.
-/// Clears its bar when it goes out of scope. Ctrl-C stops the stage and keeps what it has.
+/// Clears its bar when it goes out of scope. Ctrl-C stops the stage, whose results so far are kept.
 class ProgressBar {
  public:
   ProgressBar();
@@ -17,7 +17,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// A callback for stages one after another, to be used while this lives; rates are of the stage.
+  /// A callback for successive stages, valid while this object lives; rates are those of the stage.
   [[nodiscard]] vo::ProgressCallback callback();
 
  private:

@@ -8,7 +8,7 @@
 
 namespace retrace {
 
-/// What the route database at `path` holds, keyframe by keyframe.
+/// The contents of the route database at `path`, keyframe by keyframe.
 nlohmann::ordered_json route_json(const std::string& path, const place::Route& route);
 
 /// The same for people, on standard output, traverse by traverse.

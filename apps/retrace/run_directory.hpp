@@ -6,8 +6,8 @@
 
 namespace retrace {
 
-/// Makes sure that results can go to `folder`: creates it (and its parents) where there is none, and refuses,
-/// with one clear line, a path that is no folder, one that cannot be written to, or one that already holds
+/// Makes sure that results can be written to `folder`: creates it (and its parents) if needed, and refuses,
+/// with one clear line, a path that is not a folder, one that cannot be written to, or one that already holds
 /// any of `files` unless `force`. Called before any work is done.
 void prepare_run_directory(const std::filesystem::path& folder, const std::vector<std::string>& files,
                            bool force);

@@ -30,7 +30,7 @@ using nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// One line for each row, nine digits, which tell floats apart.
+/// One line for each row, with nine digits, which distinguish all floats.
 std::string matrix_csv(const place::CostMatrix& matrix) {
   fmt::memory_buffer text;
   for (std::size_t q = 0; q < matrix.queries; ++q) {

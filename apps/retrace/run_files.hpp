@@ -18,19 +18,19 @@ extern const std::vector<std::string> kRunFiles;
 struct WrittenRun {
   place::Run run;
   std::vector<KeptMatrix> matrices;  ///< one for each traverse
-  std::string summary;               ///< what summary.json holds
+  std::string summary;               ///< contents of summary.json
 };
 
-/// Finds a walk on a route (`place::localise`) and writes all of a run into a folder that is there:
-/// matches.csv, the trajectories, summary.json, config.toml, the report and the cost matrix.
-/// `whole_matrices`: D.csv and DD.csv too. Warnings go to the log.
+/// Finds a walk on a route (`place::localise`) and writes all of a run into an existing folder: matches.csv,
+/// the trajectories, summary.json, config.toml, the report and the cost matrix. `whole_matrices`: D.csv and
+/// DD.csv too. Warnings go to the log.
 WrittenRun localise_into(const std::filesystem::path& folder, const place::Route& route,
                          const std::string& route_path, const vo::Walk& walk, const place::Settings& settings,
                          bool whole_matrices = false);
 
 /// Writes trajectory.tum: the corrected poses, or else those of accepted matches. With a correction also
-/// trajectory_odometry.tum and trajectory.csv, and trajectory.geojson and .gpx where the route has an origin;
-/// those not written are removed, since they would be another run's. `start_utc_s`: see `place::to_gpx`.
+/// trajectory_odometry.tum and trajectory.csv, and trajectory.geojson and .gpx if the route has an origin;
+/// those not written are removed, since they would belong to another run. `start_utc_s`: see `place::to_gpx`.
 void write_trajectory(const place::QueryTrajectory& trajectory, const place::Route& route,
                       const std::vector<place::Match>& matches, const std::filesystem::path& folder,
                       std::optional<double> start_utc_s);

@@ -23,7 +23,7 @@ std::vector<CLI::ConfigItem> parse_toml(const std::string& file) {
   }
 }
 
-/// The value as TOML has it: texts in quotation marks, with what would end them escaped.
+/// The value in TOML: texts in quotation marks, with the necessary escapes.
 std::string quoted(const place::Setting& setting, const std::string& value) {
   if (!std::holds_alternative<std::optional<std::string> place::Settings::*>(setting.field)) return value;
   const bool plain = value.find_first_of("\"\\") == std::string::npos;
@@ -36,11 +36,11 @@ place::Settings read_settings_file(const std::string& file) {
   place::Settings settings;
   std::set<std::string> seen;
   for (const CLI::ConfigItem& item : parse_toml(file)) {
-    if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the begin and end of a section
+    if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the bounds of a section
     const std::string key = item.fullname();
     try {
       const place::Setting& setting = place::setting_named(key);
-      // CLI11 puts the values of a repeated key together.
+      // CLI11 joins the values of a repeated key.
       if (!seen.insert(key).second || item.inputs.size() > 1)
         throw vo::Error(key, "stands there twice, or with several values", "one value, once");
       if (item.inputs.empty()) throw vo::Error(key, "has no value", "one value");

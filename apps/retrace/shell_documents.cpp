@@ -18,7 +18,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& root) {
   return root.get_subcommands([](const CLI::App* app) { return !app->get_name().empty(); });
 }
 
-/// A command's options, those in groups too.
+/// A command's options, including those in groups.
 std::vector<const CLI::Option*> options_of(const CLI::App& app) {
   std::vector<const CLI::Option*> options = app.get_options();
   for (const CLI::App* group :
@@ -43,7 +43,7 @@ std::vector<std::string> values_of(const CLI::Option& option) {
   return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
 }
 
-/// Roff takes a line that begins with a dot or a quote for a request, and a backslash for an escape.
+/// Roff reads a line that begins with a dot or a quote as a request, and a backslash as an escape.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {

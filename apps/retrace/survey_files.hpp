@@ -11,7 +11,7 @@
 
 namespace retrace {
 
-/// What says where a traverse was walked: at most one of three files.
+/// The file with a traverse's positions: at most one of three.
 struct SurveyFiles {
   std::string truth;
   std::string trajectory;
@@ -22,13 +22,13 @@ struct SurveyFiles {
 
 void declare_survey(Arguments& arguments, SurveyFiles& files);
 
-/// The settings without those that the survey alone has a use for. `motion_of_route` stands where `settings`
-/// give no motion: a motion by a file has a use for them too.
+/// The settings without those that only the survey uses. `motion_of_route` applies if `settings` give no
+/// motion, as motion from a file uses them too.
 place::Settings settings_beside(const SurveyFiles& files, place::Settings settings,
                                 const std::optional<std::string>& motion_of_route);
 
 /// Reads the survey; none if no file was given. Throws `vo::Error` if it cannot be read, or is not of the
-/// kind of the route's. A first GPS track gives the route its origin.
+/// same kind as the route's. A first GPS track gives the route its origin.
 std::optional<place::Survey> read_survey(const SurveyFiles& files, const place::Settings& settings,
                                          const vo::Walk& walk, place::Route& route);
 

@@ -27,7 +27,7 @@ std::string shown(const std::vector<std::string>& walk) {
   return fmt::format("{}", fmt::join(walk, ", "));
 }
 
-/// What a sweep is of; another one does not go into the same folder.
+/// What identifies a sweep; a different one may not use the same folder.
 std::string description_of(const SweepOptions& options, const std::vector<place::SweepAxis>& axes) {
   std::string text =
       fmt::format("# Sweep of {} on {}\n# truth: {} {} {}, tolerance {}\n# varied:", shown(options.query),
@@ -35,7 +35,7 @@ std::string description_of(const SweepOptions& options, const std::vector<place:
                   options.truth.reference_truth, tolerance_text(options.truth.tolerance));
   for (const place::SweepAxis& axis : axes) text += " " + axis.setting;
   place::Settings settings = options.settings;
-  settings.threads.reset();  // makes no difference
+  settings.threads.reset();  // does not affect results
   return text + "\n" + to_toml(settings);
 }
 

@@ -23,8 +23,8 @@ struct SweepOptions {
   std::vector<std::string> vary;
 };
 
-/// What was done before, if the output folder holds the same sweep; with it the folder is ready for more.
-/// Throws `vo::Error` if the folder holds another sweep and `force` was not given.
+/// Earlier results, if the output folder holds the same sweep; prepares the folder for more. Throws
+/// `vo::Error` if the folder holds another sweep and `force` was not given.
 place::SweepResults resume_sweep(const SweepOptions& options, const std::vector<place::SweepAxis>& axes);
 
 /// Writes sweep.csv.

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 using place::TrajectoryAlignment;
 
-/// The trajectory of a file; none if there is no file, or but a comment in it.
+/// The trajectory of a file; none if there is no file, or only a comment in it.
 std::optional<vo::Trajectory> read_if_any(const fs::path& path) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
@@ -22,7 +22,7 @@ std::optional<vo::Trajectory> read_if_any(const fs::path& path) {
   return std::nullopt;
 }
 
-/// Of the poses that have a true one, the share within the ellipse that should hold 90 % of them.
+/// Among the poses with a true one, the share within the ellipse that should hold 90 % of them.
 ordered_json share_inside_90(const fs::path& path, const vo::Trajectory& truth) {
   if (!fs::exists(path)) return nullptr;
   constexpr double kNinety = 4.605170185988092;  // of chi-squared with two degrees of freedom: -2 ln 0.1

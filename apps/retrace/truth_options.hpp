@@ -9,23 +9,23 @@
 
 namespace retrace {
 
-/// What says where a query truly was, and how far off is still right.
+/// The truth of a query, and the tolerance for a right match.
 struct TruthOptions {
   std::string pairs;            ///< pairs.csv; or else
   std::string query_truth;      ///< truth.csv of the query,
-  std::string reference_truth;  ///< and of the reference, which may also stand beside `pairs`
+  std::string reference_truth;  ///< and of the reference, which may also be given with `pairs`
   place::Tolerance tolerance;
 };
 
 void declare_truth(Arguments& arguments, TruthOptions& options);
 
-/// The truth, and the query's true poses where it has them.
+/// The truth, and the query's true poses if it has them.
 struct Truth {
   place::GroundTruth places;
   vo::Trajectory poses;
 };
 
-/// Reads the files. Throws `vo::Error` if they cannot be read or do not say errors in the tolerance's unit.
+/// Reads the files. Throws `vo::Error` if they cannot be read or do not give errors in the tolerance's unit.
 Truth read_truth(const TruthOptions& options);
 
 /// The file that says where the query was, for messages.

@@ -26,7 +26,7 @@ constexpr double kScaledBy_m = 50;
 constexpr const char* kCsv = "visual_odometry.csv";
 constexpr const char* kTum = "visual_odometry.tum";
 
-/// The poses of the segment that has most frames.
+/// The poses of the segment with most frames.
 std::vector<std::optional<vo::Pose3>> longest_segment(const fs::path& folder) {
   const vo::CsvTable table = vo::CsvTable::read(folder / kCsv);
   const std::vector<std::int64_t> segment = table.indices("segment");

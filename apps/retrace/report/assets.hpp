@@ -2,11 +2,11 @@
 
 #include <string_view>
 
-/// What every report has in it, embedded when the program is built (report/embed.cmake).
+/// The assets of every report, embedded when the program is built (report/embed.cmake).
 namespace retrace::assets {
 
 std::string_view style();             ///< report.css
-std::string_view chart_js();          ///< Chart.js, of Debian's libjs-chart.js
+std::string_view chart_js();          ///< Chart.js, from Debian's libjs-chart.js
 std::string_view chart_js_licence();  ///< its copyright file
 std::string_view charts();            ///< charts.js: figures of lines and points
 std::string_view matrix();            ///< matrix.js: cost matrices

@@ -10,7 +10,7 @@
 
 namespace retrace {
 
-/// A value rounded to six digits, null for what is not finite: what a page needs, in few bytes.
+/// A value rounded to six digits, null if not finite: enough for a page, in few bytes.
 nlohmann::ordered_json rounded(double value);
 nlohmann::ordered_json rounded(const std::vector<double>& values);
 
@@ -26,12 +26,12 @@ struct Series {
   std::vector<int> dash;  ///< pixels drawn and left out; empty: solid
   double width_px = 1.8;
   double size_px = 3.5;            ///< half of a mark
-  bool bar_ends = false;           ///< the first and last point are bars across the line, as of an interval
+  bool bar_ends = false;           ///< the first and last point are bars across the line, as for an interval
   bool label_at_end = false;       ///< the name is written at the last point, not in the legend
   std::vector<std::string> notes;  ///< shown with each point's values; empty: none
 };
 
-/// Gives a series the colour, mark and dashes of number `index`, so that several can be told apart even
+/// Gives a series the colour, mark and dashes of number `index`, so that several can be distinguished even
 /// without colour.
 Series styled(Series series, std::size_t index);
 
@@ -55,10 +55,10 @@ struct Chart {
   std::vector<Series> series;
   std::vector<Band> bands;
   std::optional<std::array<double, 2>> x_range, y_range;  ///< the extent of the data if not given
-  std::vector<std::string> y_names;                       ///< of y = 1, 2, ..., instead of numbers
+  std::vector<std::string> y_names;                       ///< for y = 1, 2, ..., instead of numbers
   std::optional<Backdrop> backdrop;
   bool equal = false;     ///< one scale along both axes
-  bool zoomable = false;  ///< along x, or along both where they are equal
+  bool zoomable = false;  ///< along x, or along both if they are equal
   std::string size;       ///< "tall", "wide" or empty
 };
 

@@ -23,7 +23,7 @@ Chart curves(const Comparison& comparison) {
   return chart;
 }
 
-/// A run a line, its max-F1 marked on its interval.
+/// One line per run, its max-F1 marked on its interval.
 Chart intervals(const Comparison& comparison) {
   const auto count = static_cast<double>(comparison.runs.size());
   Chart chart{.title = "max-F1 of each run with its confidence interval",

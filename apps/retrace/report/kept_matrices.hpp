@@ -15,8 +15,8 @@ struct KeptMatrix {
                            ///< infinite where no pair of them was compared
 };
 
-/// Keeps the matrices of a search as they pass by (`place::SearchCallback`): at most 1024 cells along a side,
-/// unless they are wanted whole. Memory: 8 MB for each traverse.
+/// Keeps the matrices of a search as they arrive (`place::SearchCallback`): at most 1024 cells along a side,
+/// unless whole ones are requested. Memory: 8 MB for each traverse.
 class MatrixKeeper {
  public:
   MatrixKeeper(const place::Route& route, bool whole);

@@ -17,7 +17,7 @@ cv::Mat shrunk(const place::CostMatrix& matrix, std::size_t shrink) {
   for (std::size_t q = 0; q < matrix.queries; ++q) {
     for (std::size_t r = 0; r < matrix.references; ++r) {
       float& cell = picture.at<float>(rows - 1 - static_cast<int>(r / shrink), static_cast<int>(q / shrink));
-      cell = std::fmin(cell, matrix.at(q, r));  // fmin passes over NaN
+      cell = std::fmin(cell, matrix.at(q, r));  // fmin ignores NaN
     }
   }
   return picture;
@@ -74,7 +74,7 @@ std::vector<std::uint8_t> matrix_picture(const place::CostMatrix& enhanced,
 }
 
 std::vector<std::uint8_t> cost_picture(const place::CostMatrix& costs, int side_px) {
-  constexpr int kStep = 8;  // of grey: a finer picture of noise is a much larger file, and looks the same
+  constexpr int kStep = 8;  // of grey: finer noise makes a much larger file and looks the same
   const cv::Mat grey = as_grey(shrunk(costs, shrink_to(costs, side_px)));
   return as_png(grey / kStep * kStep);
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Where consecutive elements that satisfy `shaded` begin and end in time.
+/// Time ranges of consecutive elements that satisfy `shaded`.
 template <typename Shaded>
 std::vector<std::pair<double, double>> spans(const std::vector<double>& time_s, Shaded shaded) {
   std::vector<std::pair<double, double>> found;
@@ -67,7 +67,7 @@ Series step_series(const OdometryView& walk, const std::string& leg, bool bridge
   return series;
 }
 
-/// Speed from the way since the frame before, over the half second about each frame.
+/// Speed from the displacement since the frame before, over the half second around each frame.
 std::vector<double> over_half_a_second(const std::vector<double>& moved, const std::vector<double>& time_s) {
   std::vector<double> way(moved.size() + 1, 0), speed;
   for (std::size_t i = 0; i < moved.size(); ++i) way[i + 1] = way[i] + moved[i];
@@ -206,7 +206,7 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
                             .colour = "green",
                             .dash = {7, 5}});
   }
-  // SSS Fig. 9: what the sources make of it by themselves. Lost frames are no way at all.
+  // SSS Fig. 9: each source by itself. Lost frames have no displacement.
   const auto add_alone = [&](std::string name, const std::vector<double>& displacement, std::string colour) {
     if (std::ranges::all_of(displacement, [](double value) { return std::isnan(value); })) return;
     std::vector<double> moved;
@@ -223,7 +223,8 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
       {"steps", {"by steps", "ochre"}},
       {"sad", {"by alignment error", "purple"}},
       {"held", {"held", "grey"}}};
-  if (std::ranges::find(frames.source, "vo") == frames.source.end()) return chart;  // all of it is by steps
+  if (std::ranges::find(frames.source, "vo") == frames.source.end())
+    return chart;  // everything is from steps
   for (const auto& [source, shown] : kShaded) {
     auto shaded = spans(frames.time_s, [&](std::size_t i) { return frames.source[i] == source; });
     if (!shaded.empty())

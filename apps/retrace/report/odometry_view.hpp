@@ -10,10 +10,10 @@
 
 namespace retrace {
 
-/// What summary.json says of a walk.
+/// The facts about a walk in summary.json.
 struct OdometrySummary {
   std::string walk;                         ///< where it was read from; empty if not known
-  std::string step_signal = "orientation";  ///< what steps were read from
+  std::string step_signal = "orientation";  ///< the signal that steps were read from
   std::string unit = "m";                   ///< of displacements and positions: "m", "units" or "frames"
   std::optional<double> delta_min, distance, step_length_m, duration_s;
   std::optional<std::int64_t> frames, frames_bridged, steps_bridged;
@@ -27,7 +27,7 @@ struct OdometryView {
     std::vector<std::string> source;
     std::vector<std::int64_t> reliable;
     std::vector<double> vo_displacement, sad_displacement;  ///< each source alone
-  } frames;  ///< by frame; empty without frames.csv; NaN where there is no value
+  } frames;  ///< for each frame; empty without frames.csv; NaN where there is no value
   struct Steps {
     std::vector<double> time_s;
     std::vector<std::int64_t> frame, bridged;
@@ -42,7 +42,7 @@ struct OdometryView {
   const OdometryTruth* truth = nullptr;
 };
 
-/// Reads a folder written by `retrace odometry`; what is not there stays empty.
+/// Reads a folder written by `retrace odometry`; anything missing stays empty.
 OdometryView read_odometry(const std::filesystem::path& folder);
 
 }  // namespace retrace

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMargin_px = 18;
 constexpr int kTitle_px = 26;
-constexpr int kGreyLevels = 32;  // a finer picture of noise is a much larger file, and looks the same
+constexpr int kGreyLevels = 32;  // finer noise makes a much larger file and looks the same
 
 const cv::Scalar kPaper(255, 255, 255), kInk(60, 50, 45);
 
@@ -29,7 +29,7 @@ cv::Mat fitted(const cv::Mat& view) {
   return small;
 }
 
-// Puts tiles side by side below `top`, each under its title; returns where they end.
+// Places tiles side by side below `top`, each under its title; returns their lower end.
 int put_row(cv::Mat& page, const std::vector<OverviewTile>& tiles, int top) {
   int bottom = top, left = kMargin_px;
   for (const OverviewTile& tile : tiles) {

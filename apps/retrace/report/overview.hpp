@@ -8,7 +8,7 @@
 
 namespace retrace {
 
-/// A picture and what to write over it.
+/// A picture and its title.
 struct OverviewTile {
   cv::Mat picture;  ///< colour
   std::string title;

@@ -142,7 +142,7 @@ std::array<double, 2> value_range(const std::vector<HeatTable>& tables) {
   for (const HeatTable& table : tables) {
     for (const auto& row : table.values) {
       for (const double value : row) {
-        low = std::fmin(low, value);  // which pass over NaN
+        low = std::fmin(low, value);  // both ignore NaN
         high = std::fmax(high, value);
       }
     }

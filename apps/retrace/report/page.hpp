@@ -41,7 +41,7 @@ class Page {
   void headlines(const std::vector<Headline>& numbers);
   /// Name and value, one pair a row.
   void facts(const std::vector<std::pair<std::string, std::string>>& rows);
-  /// Names with a value and a sentence about it; the sentence goes below on a narrow screen.
+  /// Names with a value and a sentence about it, which moves below on a narrow screen.
   void definitions(const std::vector<std::array<std::string, 3>>& rows);
   void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
   /// Side by side, shaded on one scale.
@@ -50,7 +50,7 @@ class Page {
   void picture(const std::vector<std::uint8_t>& image, std::string_view description,
                std::string_view caption);
   void chart(const Chart& chart, std::string_view caption);
-  /// The same under a heading, both left out where there is no chart; an empty heading is none.
+  /// The same under a heading, both left out if there is no chart; an empty heading is left out.
   void chart(std::string_view heading, const std::optional<Chart>& chart, std::string_view caption);
   /// A cost matrix to zoom into: the JSON that matrix.js reads.
   void matrix(std::string_view json, std::string_view caption);

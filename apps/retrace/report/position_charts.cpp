@@ -15,7 +15,7 @@
 namespace retrace {
 namespace {
 
-/// The point of a path some metres of way from its beginning, or its end.
+/// The point of a path at this distance along it, or its end.
 place::WayPoint point_along(const std::vector<place::WayPoint>& path, double metres) {
   double walked = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -29,7 +29,7 @@ place::WayPoint point_along(const std::vector<place::WayPoint>& path, double met
   return path.back();
 }
 
-/// Moves and turns a path so that it begins where `truth` does, and in the same direction over the first
+/// Moves and rotates a path so that it begins where `truth` does, in the same direction over the first
 /// metres.
 std::vector<place::WayPoint> laid_on(std::vector<place::WayPoint> path,
                                      const std::vector<place::WayPoint>& truth) {
@@ -77,7 +77,7 @@ Backdrop map_backdrop(const OdometryTruth& truth) {
           .bottom = -image.rows * truth.map_scale_m_per_px};  // down on the map is south
 }
 
-/// The mean of some measure with its standard deviation above and below, at each distance that was measured.
+/// The mean of a measure with its standard deviation above and below, at each measured distance.
 std::optional<Chart> error_chart(const OdometryView& walk, Chart chart, double place::OdometryErrors::*mean,
                                  double place::OdometryErrors::*sd) {
   if (walk.truth == nullptr) return {};

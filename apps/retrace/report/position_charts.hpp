@@ -7,8 +7,8 @@
 
 namespace retrace {
 
-// Each gives none where the walk has not what it would show.
-/// The trajectory, laid on the truth where there is one.
+// Each returns none if the walk lacks what it would show.
+/// The trajectory, aligned with the truth if there is one.
 std::optional<Chart> trajectory_chart(const OdometryView& walk);
 /// Error against distance with its standard deviation (PVO Fig. 7).
 std::optional<Chart> position_error_chart(const OdometryView& walk);

@@ -8,13 +8,13 @@
 
 namespace retrace {
 
-/// The plane of recall and precision with its lines of equal F1, to put curves before.
+/// The plane of recall and precision with lines of equal F1, as a background for curves.
 Chart precision_recall_plane();
 
-/// Precision against recall at every threshold, which hovering tells.
+/// Precision against recall at every threshold, which hovering shows.
 Series precision_recall_curve(std::string name, const place::Evaluation& evaluation);
 
-/// One point of it, large.
+/// One point of the curve, large.
 Series operating_point(std::string name, const place::OperatingPoint& point, std::string colour,
                        std::string mark);
 

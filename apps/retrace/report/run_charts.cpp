@@ -49,7 +49,7 @@ Series level(std::string name, const RunView& run, double value) {
           .dash = {7, 5}};
 }
 
-/// The query and each traverse, under the name it has in a figure.
+/// The query and each traverse, with their names in a figure.
 struct NamedWalk {
   std::string name;
   const WalkColumns* data;
@@ -77,7 +77,7 @@ std::vector<double> differences(const std::vector<double>& values) {
   return steps;
 }
 
-/// None where there is no such file, or no pose in it: a run on a route that was not surveyed.
+/// None if there is no such file, or no pose in it: a run on a route without a survey.
 vo::Trajectory poses_in(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return {};
   try {

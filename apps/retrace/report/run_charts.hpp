@@ -11,14 +11,14 @@ Chart precision_recall_chart(const RunTruth& truth);
 /// The share of right matches against their probability; none without probabilities.
 std::optional<Chart> reliability_chart(const RunTruth& truth);
 
-// Each gives none where the run lacks what it would show.
+// Each returns none if the run lacks what it would show.
 std::optional<Chart> error_chart(const RunView& run);
 std::optional<Chart> score_chart(const RunView& run);
-/// Displacement a second of both walks, over time (SSS Fig. 6).
+/// Displacement per second of both walks, over time (SSS Fig. 6).
 std::optional<Chart> speed_chart(const RunView& run);
 /// Displacement between neighbouring keyframes of both walks (SSS Fig. 7).
 std::optional<Chart> keyframe_chart(const RunView& run);
-/// The same in metres, where both walks have true distances.
+/// The same in metres, if both walks have true distances.
 std::optional<Chart> spacing_chart(const RunView& run);
 std::optional<Chart> map_chart(const RunView& run);
 

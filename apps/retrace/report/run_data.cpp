@@ -38,7 +38,7 @@ ordered_json traverse_json(const place::Traverse& traverse) {
           {"pictures", ordered_json::object()}};
 }
 
-/// Travelled so far, at each frame of the query.
+/// Displacement travelled so far, at each frame of the query.
 ordered_json query_json(const vo::Walk& walk, const place::SampledWalk& sampled) {
   std::vector<double> travelled(sampled.displacement.size());
   std::partial_sum(sampled.displacement.begin(), sampled.displacement.end(), travelled.begin());
@@ -49,7 +49,7 @@ ordered_json query_json(const vo::Walk& walk, const place::SampledWalk& sampled)
           {"displacement", rounded(travelled)}};
 }
 
-/// The surest accepted, the least sure accepted and refused, and for the rest every so many along the walk.
+/// The surest accepted, the least sure accepted and refused, and otherwise evenly spaced ones along the walk.
 std::set<std::size_t> chosen_matches(const std::vector<place::Match>& matches) {
   std::vector<std::size_t> by_score;
   for (std::size_t q = 0; q < matches.size(); ++q) {

@@ -14,12 +14,12 @@
 
 namespace retrace {
 
-/// The file in a run's folder that holds what its report shows beyond its other files: `retrace evaluate`
-/// draws the report again from the folder alone.
+/// The file in a run's folder with the report data that its other files lack: `retrace evaluate` redraws the
+/// report from the folder alone.
 inline constexpr const char* kRunDataFile = "report_data.json";
 
-/// What is in that file: of each traverse its keyframes, its cost matrix as pictures ("pictures" is empty
-/// where there is none) and the travelled displacement; of the query the displacement; pairs of query and
+/// The contents of that file: for each traverse its keyframes, its cost matrix as pictures ("pictures" is
+/// empty if there is none) and the travelled displacement; for the query the displacement; pairs of query and
 /// reference previews.
 ///
 /// `reference`: the route, with previews if pairs are to be shown; `matrices`: one for each traverse, or
@@ -27,7 +27,7 @@ inline constexpr const char* kRunDataFile = "report_data.json";
 nlohmann::ordered_json run_data(const place::Route& route, const vo::Walk& walk, const place::Run& run,
                                 const std::vector<KeptMatrix>& matrices);
 
-/// Reads the file; an empty object if it is not there or not whole, as in a run of an older version.
+/// Reads the file; an empty object if it is missing or incomplete, as in a run of an older version.
 nlohmann::ordered_json read_run_data(const std::filesystem::path& folder);
 
 }  // namespace retrace

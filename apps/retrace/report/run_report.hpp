@@ -13,10 +13,10 @@
 
 namespace retrace {
 
-/// What is known of a run once it was held against the truth.
+/// The truth of a run, after evaluation.
 struct RunTruth : place::RunEvaluation {
   place::GroundTruth truth;
-  vo::Trajectory poses;  ///< the query's, where its truth has them
+  vo::Trajectory poses;  ///< the query's, if its truth has them
 };
 
 /// "metres" or "reference frames".
@@ -25,9 +25,9 @@ std::string name_of(place::ErrorUnit unit);
 /// How precision and recall are counted, for people.
 extern const std::string_view kCounting;
 
-/// The report of a run, from what lies in its folder: matches.csv, and where they are there summary.json,
-/// config.toml, `data` (see run_data.hpp) and the trajectories; with the truth once it was evaluated. What is
-/// missing is left out. Throws `vo::Error` if matches.csv cannot be read.
+/// The report of a run, from the files in its folder: matches.csv and, if present, summary.json, config.toml,
+/// `data` (see run_data.hpp) and the trajectories; with the truth after evaluation. Anything missing is left
+/// out. Throws `vo::Error` if matches.csv cannot be read.
 std::string run_report(const std::filesystem::path& folder, const nlohmann::ordered_json& data,
                        const RunTruth* truth = nullptr);
 

@@ -34,11 +34,11 @@ struct RunCounts {
   std::vector<std::string> warnings;
 };
 
-/// What the figures of a run's report are drawn from.
+/// The data for the figures of a run's report.
 struct RunView {
   std::filesystem::path folder;
   std::vector<place::Match> matches;
-  double unit = 0;  ///< displacement between keyframes; 0 where it is not known
+  double unit = 0;  ///< displacement between keyframes; 0 if not known
   std::optional<WalkColumns> query;
   std::vector<WalkColumns> traverses;
   std::optional<RunCounts> counts;
@@ -46,7 +46,7 @@ struct RunView {
   const RunTruth* truth;               ///< null before the run is evaluated
 };
 
-/// Throws `vo::Error` if matches.csv cannot be read; what else is missing is left out.
+/// Throws `vo::Error` if matches.csv cannot be read; anything else that is missing is left out.
 RunView read_run(const std::filesystem::path& folder, const nlohmann::ordered_json& data,
                  const RunTruth* truth);
 

@@ -18,7 +18,7 @@ double max_f1(const place::SweepResults& results, const place::SweepCell& cell) 
   return found != results.end() && found->second ? found->second->max_f1 : NAN;
 }
 
-/// A value as a number where all of the axis are, else its place among them.
+/// A value as a number if all values of the axis are numbers, else its index.
 double position(const place::SweepAxis& axis, std::size_t i) {
   const auto number = [](const std::string& text) {
     char* end = nullptr;
@@ -30,7 +30,7 @@ double position(const place::SweepAxis& axis, std::size_t i) {
   return numeric ? number(axis.values[i]) : static_cast<double>(i);
 }
 
-/// Max-F1 along one axis from a cell, the other axes as in it.
+/// Max-F1 along one axis through a cell, with its values on the other axes.
 Series along(const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
              place::SweepCell cell, std::size_t axis, std::string name, std::size_t style) {
   Series series = styled({.name = std::move(name), .size_px = 4.5}, style);

@@ -10,8 +10,8 @@
 
 namespace retrace {
 
-/// The cell of the highest max-F1, the first of equals; none if no cell could be run. With `motion`, only of
-/// cells of that first value.
+/// The cell with the highest max-F1, the first among equals; none if no cell could be run. With `motion`,
+/// only among cells with that first value.
 std::optional<place::SweepCell> best_cell(const std::vector<place::SweepAxis>& axes,
                                           const place::SweepResults& results, const std::string& motion = {});
 
@@ -20,8 +20,8 @@ std::optional<place::SweepCell> best_cell(const std::vector<place::SweepAxis>& a
 std::vector<HeatTable> heat_tables(const std::vector<place::SweepAxis>& axes,
                                    const place::SweepResults& results);
 
-/// The page: best settings, heat tables, curves, every further axis by itself, all cells. `facts` stand at
-/// its head.
+/// The page: best settings, heat tables, curves, every further axis by itself, all cells. `facts` are shown
+/// at its top.
 std::string sweep_report(const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
                          const std::string& subtitle,
                          const std::vector<std::pair<std::string, std::string>>& facts);
