@@ -29,7 +29,7 @@ vo::Walk read_as(std::span<const std::string> sources, const StageOptions& optio
   return walk;
 }
 
-/// A walk that was read for another route would give keyframes that nothing can be compared with.
+/// Keyframes of a walk that was read for another route cannot be compared with anything.
 void check_read_with(const StageOptions& options, const vo::Walk& walk) {
   const bool same_size = walk.thumbnails.width == options.walk.thumbnail.width &&
                          walk.thumbnails.height == options.walk.thumbnail.height;
@@ -122,7 +122,7 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
   const Settings resolved = resolve(settings, on(route, Purpose::kRoute));
   const StageOptions options = stage_options(resolved);
   check_read_with(options, walk);
-  // A route's unit comes from its first traverse; the walk that replaces it is tied to what it was.
+  // A route's unit comes from its first traverse; a walk that replaces it is tied to the replaced one.
   const SampledWalk sampled = sample_walk(walk, options.sampling, &route);
   if (sampled.frames.size() < 2)
     throw vo::Error(walk.source, "gives a single keyframe",

@@ -16,7 +16,7 @@ bool is(const std::optional<std::string>& value, std::string_view what) {
   return value && *value == what;
 }
 
-/// A copy with what a walk has from its route.
+/// A copy with the settings that a walk takes from its route.
 Settings with_route(Settings settings, const Settings& route) {
   const bool density_given = settings.sampling_n || settings.spacing_m;
   for (const Setting& setting : settings_table()) {
@@ -39,7 +39,7 @@ Settings with_route(Settings settings, const Settings& route) {
   return settings;
 }
 
-/// False for settings that a purpose passes over.
+/// False for settings that a purpose ignores.
 bool serves(Purpose purpose, const Setting& setting) {
   if (purpose == Purpose::kLocalise) return true;
   if (purpose == Purpose::kOdometry) {
@@ -50,7 +50,7 @@ bool serves(Purpose purpose, const Setting& setting) {
   return setting.group != SettingGroup::kSearch;
 }
 
-/// `has_effect`, and of settings of odometry whether steps are followed.
+/// `has_effect`; for settings of odometry, also whether steps are tracked.
 bool matters(const Settings& settings, const Setting& setting, const ResolveContext& context,
              std::string* why_not) {
   if (!has_effect(settings, setting, why_not)) return false;
@@ -62,14 +62,14 @@ bool matters(const Settings& settings, const Setting& setting, const ResolveCont
   return false;
 }
 
-/// Odometry is by steps, with or without visual odometry.
+/// Odometry uses steps, with or without visual odometry.
 void choose_odometry(Settings& settings) {
   if (!settings.motion) settings.motion = "hybrid";
   if (!is(settings.motion, "hybrid") && !is(settings.motion, "steps"))
     throw vo::Error("motion", fmt::format("is {}", *settings.motion), "hybrid or steps for odometry");
 }
 
-/// How dense keyframes are, where it was not given.
+/// The default density of keyframes.
 void choose_density(Settings& settings, const Settings& given) {
   if (is(settings.motion, "none")) return;
   const bool surely_metric = is(settings.motion, "steps");
@@ -108,7 +108,7 @@ Settings resolve(const Settings& given, const ResolveContext& context) {
   const Settings own = context.route != nullptr ? with_route(given, *context.route) : given;
   Settings settings = own;
   if (context.purpose == Purpose::kOdometry) choose_odometry(settings);
-  // The table stands in such an order that a condition asks for settings before its own.
+  // The table is ordered so that a condition only depends on earlier settings.
   for (const Setting& setting : settings_table()) {
     if (!serves(context.purpose, setting)) {
       reset(settings, setting);

@@ -25,7 +25,7 @@ void put(const std::optional<double>& value, std::optional<double>& target) {
   if (value) target = value;
 }
 
-/// The enumerator of a choice of the table.
+/// The enumerator for a choice in the table.
 template <typename Target>
 void put_choice(const std::optional<std::string>& value, Target& target,
                 std::initializer_list<std::pair<std::string_view, Target>> choices) {
@@ -39,7 +39,7 @@ void put_choice(const std::optional<std::string>& value, Target& target,
   throw std::invalid_argument("stage_options: resolved settings expected");
 }
 
-/// Numbers with a character between them, as many as there are in `target`.
+/// Numbers separated by a character, as many as in `target`.
 template <typename Number, std::size_t count>
 void put_numbers(std::string_view name, const std::optional<std::string>& text, char between,
                  std::array<Number, count>& target) {

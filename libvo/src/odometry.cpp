@@ -20,7 +20,7 @@ std::vector<std::uint8_t> preview_of(const Frame& frame, int width_px) {
   const cv::Mat& image = frame.colour.empty() ? frame.image : frame.colour;
   const int width = std::min(width_px, image.cols);
   const int height = std::max(1, static_cast<int>(std::int64_t{image.rows} * width / image.cols));
-  // Halving is many times faster than any other ratio, and as good for people to look at.
+  // Halving is many times faster than any other ratio, and looks as good.
   cv::Mat small = image;
   while (small.cols >= 2 * width && small.cols % 2 == 0 && small.rows % 2 == 0) {
     cv::resize(small, small, {small.cols / 2, small.rows / 2}, 0, 0, cv::INTER_AREA);
@@ -43,13 +43,13 @@ std::vector<Frame> read_batch(FrameSource& frames, std::size_t count) {
   return batch;
 }
 
-/// What follows a walk from frame to frame.
+/// The trackers that follow a walk from frame to frame.
 struct Trackers {
   FeatureTracker features;
   MonocularVo visual_odometry;
 };
 
-/// What is kept of a batch of frames, worked out in parallel.
+/// The data kept of a batch of frames, computed in parallel.
 void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers& trackers, Walk& walk) {
   const std::size_t begin = walk.frames();
   walk.thumbnails.pixels.resize((begin + batch.size()) * walk.thumbnails.image_size());
@@ -79,7 +79,7 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
       });
 }
 
-/// What a user should know of the clock's jumps: each that parts the walk, and the others together.
+/// Warnings about jumps of the clock: each one that interrupts the walk, and the others together.
 std::vector<std::string> gap_warnings(const Walk& walk) {
   std::vector<std::string> warnings;
   std::vector<ClockGap> filled;
@@ -130,8 +130,8 @@ Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& 
   Trackers trackers{FeatureTracker(options.tracker), MonocularVo(options.vo)};
   walk.thumbnails = make_image_stack(options.thumbnail.width, options.thumbnail.height, 0);
 
-  // Each batch is worked on while the next is decoded: a few frames for each thread, enough to share the
-  // work, little enough for 4K video.
+  // Each batch is processed while the next is decoded: a few frames for each thread, enough to share the
+  // work, few enough for 4K video.
   const std::size_t batch_size = 4 * static_cast<std::size_t>(thread_count());
   keep_threads([&] {
     std::vector<Frame> batch = read_batch(frames, batch_size);
@@ -156,7 +156,7 @@ Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& 
   for (std::string& warning : gap_warnings(walk)) walk.warnings.push_back(std::move(warning));
   if (options.visual_odometry) {
     walk.track = trackers.visual_odometry.finish();
-    for (const ClockGap& gap : walk.gaps) {  // what is seen after it may be anywhere
+    for (const ClockGap& gap : walk.gaps) {  // the view after it may be anywhere
       walk.track->frames[gap.frame].valid = false;
       walk.track->frames[gap.frame].loss = TrackLoss::kGap;
     }
@@ -166,7 +166,7 @@ Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& 
 
 namespace {
 
-/// False for frames of next to no contrast, and those that are compared with one.
+/// False for frames with hardly any contrast, and those compared with one.
 std::vector<bool> with_contrast(const Walk& walk, const VisualMotionOptions& options) {
   const std::vector<double> contrast = patch_contrast(walk.thumbnails, options.patch.patch_px);
   const double least = options.min_contrast * median(contrast);
@@ -210,7 +210,7 @@ std::optional<VisualMotion> visual_motion_if_any(const Walk& walk, const VisualM
 
 namespace {
 
-/// Steps found at even times, at the frames of the walk. `clock_s`: of its frames, `without_long_gaps`.
+/// Moves steps found at even times to the frames of the walk. `clock_s`: of its frames, `without_long_gaps`.
 StepDetection at_frames(StepDetection even, const GaitSignal& signal, const Walk& walk,
                         std::span<const double> clock_s) {
   const double half_s = 0.5 / signal.rate_hz;
@@ -235,7 +235,7 @@ StepDetection at_frames(StepDetection even, const GaitSignal& signal, const Walk
   return even;
 }
 
-/// What follows from the steps.
+/// Everything that follows from the steps.
 void walk_steps(PedestrianMotion& motion, const PedestrianMotionOptions& options) {
   const auto& [steps, bridged, partial, delta_min, gait_share, delta_dyn] = motion.detection;
   const std::vector<double>& time_s = motion.signal.time_s;

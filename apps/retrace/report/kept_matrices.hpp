@@ -11,8 +11,8 @@ namespace retrace {
 struct KeptMatrix {
   place::CostMatrix cost;
   place::CostMatrix enhanced;
-  std::size_t shrink = 1;  ///< a cell is the least of so many by so many, where the matrix is a large one;
-                           ///< infinite where no pair of them was compared
+  std::size_t shrink = 1;  ///< in a large matrix, a cell is the least of this many by this many costs;
+                           ///< infinite if no pair of them was compared
 };
 
 /// Keeps the matrices of a search as they arrive (`place::SearchCallback`): at most 1024 cells along a side,

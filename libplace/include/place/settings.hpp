@@ -10,8 +10,8 @@
 /// TOML, help, validation, the saved configuration and the route database are made from the table.
 namespace place {
 
-/// What was given, and only that: a field without a value was not given. `resolve` (place/resolve.hpp) fills
-/// in the rest. Units are in the names; the table says what each does, its range and its source.
+/// Only what was given: a field without a value was not given. `resolve` (place/resolve.hpp) fills in the
+/// rest. Units are in the names; the table gives each setting's meaning, range and source.
 struct Settings {
   // Reading
   std::optional<double> frame_rate_hz;
@@ -66,7 +66,7 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// What a setting belongs to, and so which commands take it.
+/// The group of a setting, which determines the commands that accept it.
 enum class SettingGroup { kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral };
 
 /// "Reading", "Motion and sampling", ... for people.
@@ -75,11 +75,11 @@ std::string_view name_of(SettingGroup group);
 /// Whether walks on a route share a setting.
 enum class OfRoute {
   kNo,         ///< each walk has its own
-  kInherited,  ///< a walk that is not given another has the route's
-  kFixed,      ///< keyframes are comparable only with the same: another value is refused
+  kInherited,  ///< a walk without its own value has the route's
+  kFixed,      ///< keyframes are comparable only with the same value: another is refused
 };
 
-/// The field a setting lies in.
+/// The field that holds a setting.
 using SettingField = std::variant<std::optional<bool> Settings::*, std::optional<int> Settings::*,
                                   std::optional<double> Settings::*, std::optional<std::string> Settings::*>;
 
@@ -89,45 +89,45 @@ struct Setting {
   SettingField field;
   SettingGroup group = SettingGroup::kGeneral;
   OfRoute of_route = OfRoute::kInherited;
-  std::string_view standard;     ///< what it is if it is not given; empty: nothing, or `resolve` decides
+  std::string_view standard;     ///< the default; empty: none, or `resolve` decides
   double least = 0, most = 0;    ///< of a number, both included
   bool above_least = false;      ///< the least itself is excluded
   std::string_view choices;      ///< of a text: a|b|c; empty: any
-  std::string_view form;         ///< of a text that is no file: what it looks like, for people
-  std::string_view when;         ///< where it has an effect, see `has_effect`; empty: everywhere
+  std::string_view form;         ///< of a text that is not a file: what it looks like, for people
+  std::string_view when;         ///< when it has an effect, see `has_effect`; empty: always
   std::string_view description;  ///< unit, meaning, [source]
   bool everyday = false;         ///< one of the dozen that --help shows
-  bool at_reading = false;       ///< shapes what is kept of a walk while it is read
+  bool at_reading = false;       ///< affects what is kept of a walk while it is read
 };
 
 /// All settings, in the order of their groups.
 std::span<const Setting> settings_table();
 
-/// The entry of a name. Throws `vo::Error` with the nearest name there is.
+/// The entry with a name. Throws `vo::Error` with the nearest existing name.
 const Setting& setting_named(std::string_view name);
 
-/// The setting's value as text, as it stands in TOML but without quotation marks; none if it has none.
+/// The setting's value as text, as in TOML but without quotation marks; none if it has none.
 std::optional<std::string> text_of(const Settings& settings, const Setting& setting);
 
 /// Sets it from text. Throws `vo::Error` naming the setting, its value and what was expected.
 void set(Settings& settings, const Setting& setting, std::string_view text);
 
-/// Takes the value away.
+/// Removes the value.
 void reset(Settings& settings, const Setting& setting);
 
 /// Throws `vo::Error` for the first value that is out of its range or choices.
 void check_ranges(const Settings& settings);
 
-/// What of `given` is there, and where it is not, what is in `otherwise`.
+/// The values of `given`, or of `otherwise` where there is none.
 Settings merged(const Settings& given, const Settings& otherwise);
 
-/// True if the conditions of `setting.when` hold: `name=a|b` that a setting is one of these, `name!=a|b` that
-/// it is none of them (of a value of several joined by `+`: any of these), `!name` that it has no value;
-/// several are joined by `&`. `why_not`: if given, filled with a condition that does not hold, for people
-/// ("motion is sad", "camera is given").
+/// True if the conditions of `setting.when` hold: `name=a|b`: the setting is one of these; `name!=a|b`: it is
+/// not (for a value of several joined by `+`: any of these); `!name`: it has no value; several are joined by
+/// `&`. `why_not`: if given, filled with a condition that does not hold, for people ("motion is sad", "camera
+/// is given").
 bool has_effect(const Settings& settings, const Setting& setting, std::string* why_not = nullptr);
 
-/// The candidate that takes the fewest edits to make of `name`; empty if even that takes more than half its
+/// The candidate the fewest edits away from `name`; empty if even that takes edits of more than half its
 /// letters.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 

@@ -12,23 +12,23 @@
 
 namespace place {
 
-/// The options of every stage, as settings say. What a resolved setting has no value for is left at the
-/// stage's own default.
+/// The options of every stage, from settings. Where a resolved setting has no value, the stage's own default
+/// stays.
 struct StageOptions {
   vo::WalkOptions walk;
-  std::string motion_file;                        ///< for motion by a file; else empty
+  std::string motion_file;                        ///< for motion from a file; else empty
   vo::PoseFileOptions motion_file_form;           ///< how it is read
   vo::ExternalTrajectoryOptions motion_file_fit;  ///< how it is matched to frames
   WalkSamplingOptions sampling;
   RouteMatchingOptions matching;
 };
 
-/// `resolved`: what `resolve` gave. `follow_steps`: points are tracked though the motion needs none. Reads
-/// the camera's calibration file, if there is one. Throws `vo::Error` if it cannot be read.
+/// `resolved`: from `resolve`. `follow_steps`: points are tracked even if the motion does not need them.
+/// Reads the camera's calibration file, if there is one. Throws `vo::Error` if it cannot be read.
 StageOptions stage_options(const Settings& resolved, bool follow_steps = false);
 
-/// How a survey's file is read, as far as it was given: `axes` and `motion-file-gap-s`, which a trajectory
-/// that gives motion shares with one that was surveyed.
+/// How a survey's file is read, as far as given: `axes` and `motion-file-gap-s`, which surveys share with
+/// trajectories that give motion.
 SurveyOptions survey_options(const Settings& given);
 
 }  // namespace place

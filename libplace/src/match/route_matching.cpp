@@ -66,8 +66,8 @@ std::vector<double> keyframe_steps(const SampledWalk& sampled, const Traverse& t
   return steps;
 }
 
-/// The gaps of a traverse, `gaps` by keyframe, among the columns that are compared: between the stretches of
-/// a shortlist, too, the traverse goes on elsewhere.
+/// The gaps of a traverse, `gaps` by keyframe, as gaps of the compared columns; there are also gaps between
+/// the stretches of a shortlist, where the traverse continues elsewhere.
 std::vector<std::size_t> gaps_between(const std::vector<std::size_t>& columns,
                                       const std::vector<std::size_t>& gaps) {
   std::vector<std::size_t> among;

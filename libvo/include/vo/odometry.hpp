@@ -29,8 +29,8 @@
 /// The whole library on one screen: a walk is read once, and every later stage works on what that pass kept.
 namespace vo {
 
-/// What a caller keeps of a frame beside all else, as bytes of its own meaning. Called for frames of a batch
-/// at the same time.
+/// What a caller additionally keeps of a frame, as bytes in its own format. Called concurrently for the
+/// frames of a batch.
 using FrameRecorder = std::function<std::vector<std::uint8_t>(const Frame&)>;
 
 /// Settings of `read_walk`.
@@ -38,16 +38,16 @@ struct WalkOptions {
   FrameSourceOptions frames;
   ThumbnailOptions thumbnail;
   int preview_width_px = 160;    ///< width of the small JPEG kept of every frame; 0 keeps none
-  bool track_features = false;   ///< SURF points are followed, for `pedestrian_motion`
-  bool visual_odometry = false;  ///< monocular visual odometry gives `Walk::track`
+  bool track_features = false;   ///< track SURF points, for `pedestrian_motion`
+  bool visual_odometry = false;  ///< fill `Walk::track` by monocular visual odometry
   FeatureTrackerOptions tracker;
   MonocularVoOptions vo;
   std::vector<FrameRecorder> recorders;  ///< each gives one of `Walk::records`
-  int colour_width_px = 0;               ///< of `Frame::colour`, where recorders look at it
+  int colour_width_px = 0;               ///< of `Frame::colour`, if recorders use it
 };
 
-/// What one pass over a recording kept: about 2 kB a frame, 3 kB more with previews, 100 bytes with tracked
-/// points.
+/// What one pass over a recording kept: about 2 kB per frame, 3 kB more with previews, 100 bytes more with
+/// tracked points.
 struct Walk {
   std::string source;  ///< as given: a path, or camera:N
   int frame_width_px = 0;
@@ -57,27 +57,27 @@ struct Walk {
   ImageStack thumbnails;       ///< grey, one for each frame
   std::vector<std::vector<std::uint8_t>>
       previews;                      ///< JPEG, one for each frame; empty if none were asked for
-  std::vector<FrameMotion> tracked;  ///< by the points followed, one for each frame; empty if they were not
-  /// By recorder, one for each frame.
+  std::vector<FrameMotion> tracked;  ///< from tracked points, one for each frame; empty without
+  /// For each recorder, one for each frame.
   std::vector<std::vector<std::vector<std::uint8_t>>> records;
-  std::optional<DisplacementTrack> track;  ///< by visual odometry or from a file, where there is one
-  std::optional<double> start_utc_s;       ///< seconds since 1970 at the first frame, where its file says it
-  std::vector<std::string> warnings;       ///< what a user should know of the recording
+  std::optional<DisplacementTrack> track;  ///< by visual odometry or from a file, if any
+  std::optional<double> start_utc_s;       ///< seconds since 1970 at the first frame, if its file says so
+  std::vector<std::string> warnings;       ///< what a user should know about the recording
 
   [[nodiscard]] std::size_t frames() const { return time_s.size(); }
 };
 
 /// Reads a recording (see `open_frame_source` for its forms). Throws `vo::Error` if it cannot be read or has
-/// fewer than two frames. Stops early, with what it has, when `progress` returns false. Reading is serial,
-/// and goes on while the frames before are worked on in parallel.
+/// fewer than two frames. Stops early, with the frames so far, when `progress` returns false. Reading is
+/// serial, while earlier frames are processed in parallel.
 Walk read_walk(const std::string& source, const WalkOptions& options = {},
                const ProgressCallback& progress = {});
 
-/// The same of several files in order, as one walk.
+/// The same for several files in order, as one walk.
 Walk read_walk(std::span<const std::string> sources, const WalkOptions& options = {},
                const ProgressCallback& progress = {});
 
-/// The same of frames from anywhere; `name` stands for them in messages.
+/// The same for frames from any source; messages call it `name`.
 Walk read_walk(FrameSource& frames, const std::string& name, const WalkOptions& options = {},
                const ProgressCallback& progress = {});
 
@@ -94,19 +94,19 @@ struct VisualMotionOptions {
 /// (SSS 3.1-3.2).
 struct VisualMotion {
   std::vector<double> displacement;  ///< seconds at mean walking speed
-  std::vector<bool> standing;        ///< the steps, among them, that are 0 because the walker stands
+  std::vector<bool> standing;        ///< displacements that are 0 because the walker is still
   MotionModel model;                 ///< learned on the whole walk
-  AlignmentErrors errors;            ///< that all of this was learned from
-  std::vector<bool> usable;  ///< false in windows of high error, of next to no contrast, and after a gap
+  AlignmentErrors errors;            ///< the errors that all of this was learned from
+  std::vector<bool> usable;  ///< false in windows of high error, with hardly any contrast, and after a gap
 };
 
-/// Patch normalisation -> stands -> alignment errors -> windows of high error -> motion model, learned
-/// without both -> displacement; over jumps of the clock that of the pace around them (`fill_gaps_by_pace`).
-/// Throws `vo::Error` naming the walk if there is no motion to learn from (black, or standing still
-/// throughout).
+/// Patch normalisation -> pauses -> alignment errors -> windows of high error -> motion model, learned
+/// without pauses and those windows -> displacement; over jumps of the clock at the pace around them
+/// (`fill_gaps_by_pace`). Throws `vo::Error` naming the walk if there is no motion to learn from (black, or
+/// still throughout).
 VisualMotion visual_motion(const Walk& walk, const VisualMotionOptions& options = {});
 
-/// The same; none where there is no motion to learn from.
+/// The same; none if there is no motion to learn from.
 std::optional<VisualMotion> visual_motion_if_any(const Walk& walk, const VisualMotionOptions& options = {});
 
 /// Settings of `pedestrian_motion`.
@@ -121,7 +121,7 @@ struct PedestrianMotionOptions {
 /// Steps, heading and trajectory of a walk (PVO 4), at its frames.
 struct PedestrianMotion {
   GaitSignal signal;
-  StepSignal step_signal = StepSignal::kOrientation;  ///< which of them the steps were read from
+  StepSignal step_signal = StepSignal::kOrientation;  ///< that the steps were read from
   StepDetection detection;                            ///< in the signal's unit
   std::vector<double> step_length_m;                  ///< of each step
   std::vector<double> displacement_m;                 ///< of each frame since the one before it; the first: 0
@@ -129,13 +129,13 @@ struct PedestrianMotion {
   std::vector<ActivitySecond> activity;
 };
 
-/// Motion at even times -> gait signal -> steps -> step lengths -> displacement and trajectory, of a walk
-/// read with `track_features`. In gaps of the clock steps are those of the way (`complete_steps`), in gaps
-/// longer than `kLongestFilledGap_s` there are none. Throws `std::invalid_argument` for a walk without
+/// Motion at even times -> gait signal -> steps -> step lengths -> displacement and trajectory, for a walk
+/// read with `track_features`. In gaps of the clock, steps follow from the distance (`complete_steps`); in
+/// gaps longer than `kLongestFilledGap_s` there are none. Throws `std::invalid_argument` for a walk without
 /// tracked points, `vo::Error` naming one whose frame rate is too low to see steps.
 PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptions& options = {});
 
-/// The same without its steps: what they were read from was no walker's.
+/// The same without its steps, for a signal that was not a walker's.
 PedestrianMotion without_steps(PedestrianMotion motion, const PedestrianMotionOptions& options = {});
 
 }  // namespace vo

@@ -27,7 +27,7 @@ struct StepDetectionOptions {
   std::size_t pairs = 5;  ///< of successive left and right steps, for the median difference [PVO 5.3 (3)]
   double first_step_ratio = 0.75;  ///< of an average step; used in delta_dyn until pairs have been seen
   double stride_ratio = 0.35;      ///< least amplitude of a step's stride, as a share of the gait around it
-  double pause_s = 1.5;            ///< longest step; after a longer gap, delta_dyn begins anew
+  double pause_s = 1.5;            ///< longest step; after a longer gap, delta_dyn starts again
   double max_bridged_s = 5;        ///< longest gap between two steps to be filled by cadence; 0 fills none
   PeriodicityOptions periodicity;  ///< what counts as gait; min_strength = -1 lets everything pass
 };

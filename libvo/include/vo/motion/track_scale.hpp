@@ -40,7 +40,7 @@ std::vector<std::optional<double>> smoothed_displacement(const DisplacementTrack
 
 /// Converts all segments of a track to one unit.
 ///
-/// Monocular visual odometry begins anew after each loss, with "displacement values scaled differently" (SSS
+/// Monocular visual odometry starts again after each loss, with "displacement values scaled differently" (SSS
 /// 5.2); SSS does nothing about it. Here:
 ///
 /// 1. Within a segment, the ground seen in the seconds around each frame removes the slow drift of a
