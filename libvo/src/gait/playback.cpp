@@ -15,14 +15,14 @@
 namespace vo {
 namespace {
 
-/// A bounce as another clock has it.
+/// A bounce on another clock.
 struct Bounce {
-  double even = 0;   ///< how even it is where it is like gait (`Periodicity::strength`), in the median
-  double share = 0;  ///< of the recording in which it is like gait while the camera gets on
-  double hz = 0;     ///< by the recording's own clock
+  double even = 0;   ///< how even it is where it resembles gait (`Periodicity::strength`), in the median
+  double share = 0;  ///< of the recording in which it resembles gait while the camera travels
+  double hz = 0;     ///< on the recording's own clock
 };
 
-/// The bounce of a walk that is played `speed` times as fast; none of one with too few frames a second for
+/// The bounce of a walk that is played `speed` times as fast; none if it has too few frames per second for
 /// that.
 Bounce at_speed(const EvenMotion& motion, double speed, GaitSignalOptions signal_options,
                 const StepReadingOptions& options) {
@@ -38,7 +38,7 @@ Bounce at_speed(const EvenMotion& motion, double speed, GaitSignalOptions signal
   periodicity.min_amplitude =
       std::max(periodicity.min_amplitude, least_gait(signal.bounce.unit, signal.rate_hz));
   const std::vector<Periodicity> windows = bounce_windows(signal.bounce.values, signal.time_s, periodicity);
-  const std::vector<bool> nearer = gets_on(signal);
+  const std::vector<bool> nearer = camera_travels(signal);
   std::vector<double> even, step_s;
   for (const Periodicity& window : windows) {
     if (!window.gait || !nearer[window.frame]) continue;
@@ -55,11 +55,11 @@ Bounce at_speed(const EvenMotion& motion, double speed, GaitSignalOptions signal
 std::optional<double> impossible_cadence_hz(std::span<const FrameMotion> motion,
                                             std::span<const double> time_s, const GaitSignalOptions& signal,
                                             const StepReadingOptions& steps) {
-  // Walks by their own clock have 0.83 to 0.98, what is none 0.74 at most (see `bounces_as_walker`).
+  // Walks on their own clock have 0.83 to 0.98, anything else at most 0.74 (see `bounces_like_walker`).
   constexpr double kEven = 0.8;
   constexpr double kMost = 0.7;  // of the recording
-  // Three bounces are as even as one, so that a time lapse may look like a walk, a little less even; as
-  // `stride_periodicity`, the shortest of those that come near counts.
+  // Three bounces are as even as one, so a time lapse may look like a slightly less even walk; as in
+  // `stride_periodicity`, the shortest that comes near counts.
   constexpr double kAsEven = 0.1;
   if (motion.size() != time_s.size())
     throw std::invalid_argument("impossible_cadence_hz: one time for each motion expected");
