@@ -110,6 +110,10 @@ void print_route(const std::string& path, const place::Route& route) {
     } else {
       fmt::print("  no poses\n");
     }
+    for (const std::size_t gap : place::gaps_of(traverse)) {
+      fmt::print("  interrupted between frames {} and {}\n", traverse.keyframes[gap - 1].frame,
+                 traverse.keyframes[gap].frame);
+    }
     fmt::print("  settings:{}\n", settings_text(traverse.settings));
   }
 }
