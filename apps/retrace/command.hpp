@@ -13,7 +13,7 @@ inline constexpr const char* kWalkArgument =
 /// Declares a command's arguments and returns the action to run after parsing.
 using Declare = std::function<void()>(Arguments&);
 
-Declare declare_build, declare_localise, declare_correct, declare_evaluate, declare_odometry,
+Declare declare_build, declare_localise, declare_correct, declare_evaluate, declare_follow, declare_odometry,
     declare_evaluate_odometry, declare_sweep, declare_compare, declare_inspect, declare_describe,
     declare_simulate, declare_demo, declare_config;
 

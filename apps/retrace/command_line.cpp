@@ -46,6 +46,8 @@ constexpr std::array kCommands{
                  declare_demo},
     CommandEntry{"build", "make a route database of a walk, or add a traverse to one", declare_build},
     CommandEntry{"localise", "find a walk on a route: a position for every keyframe of it", declare_localise},
+    CommandEntry{"follow", "say where on a route a walker is, frame by frame, as a line of JSON",
+                 declare_follow},
     CommandEntry{
         "correct",
         "the corrected trajectory of a run again, after its matches were edited or from other odometry",

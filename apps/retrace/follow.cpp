@@ -1,0 +1,144 @@
+#include "command.hpp"
+#include "follow_lines.hpp"
+#include "newest_frame.hpp"
+#include "run_directory.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <place/certainty/announcer.hpp>
+#include <place/certainty/follower.hpp>
+#include <place/route/route_database.hpp>
+#include <vo/base/error.hpp>
+#include <vo/base/parallel.hpp>
+#include <vo/io/frame_source.hpp>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPatience_s = 10;  // a camera that sends no picture for so long hangs
+
+struct FollowOptions {
+  place::Settings settings;
+  CommonOptions common;
+  std::string walk;
+  std::string route;
+  std::string output;
+  double lag_s = 0;
+  bool announce = false;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// A line goes out as soon as it is known, and into a file, which has its name once it is complete.
+class Lines {
+ public:
+  explicit Lines(const std::string& folder) : folder_(folder) {
+    if (!folder_.empty()) file_.open(part());
+  }
+  void write(const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+    if (!folder_.empty()) file_ << line << '\n';
+  }
+  void finish() {
+    if (folder_.empty()) return;
+    file_.close();
+    if (!file_) throw vo::Error(part().string(), "cannot be written", "a disk with room");
+    fs::rename(part(), folder_ / "follow.jsonl");
+  }
+
+ private:
+  [[nodiscard]] fs::path part() const { return folder_ / "follow.jsonl.part"; }
+
+  fs::path folder_;
+  std::ofstream file_;
+};
+
+/// True for what does not wait for a slow reader.
+bool is_live(const std::string& walk) {
+  return walk.starts_with("camera:") || walk.starts_with("rtsp://");
+}
+
+void follow(const FollowOptions& options) {
+  vo::set_thread_count(options.settings.threads.value_or(0));
+  const place::Route route = place::read_route(options.route);
+  place::Follower follower(route, options.settings, {.lag_s = options.lag_s});
+  place::Announcer announcer(route);
+  if (!options.output.empty()) prepare_run_directory(options.output, {"follow.jsonl"}, options.common.force);
+  std::unique_ptr<vo::FrameSource> source = vo::open_frame_source(options.walk, follower.frame_source());
+  const vo::FrameSource& opened = *source;
+  std::optional<NewestFrame> newest;
+  if (is_live(options.walk)) newest.emplace(std::move(source));
+
+  interrupted = 0;
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  Lines lines(options.output);
+  std::string trouble;
+  while (interrupted == 0) {
+    std::optional<vo::Frame> frame;
+    try {
+      frame = newest ? newest->next(kPatience_s) : source->next();
+    } catch (const vo::Error& error) {
+      trouble = error.what();
+      break;
+    }
+    if (!frame) break;
+    const place::Position position = follower.push(*frame);
+    lines.write(follow_line(position));
+    if (!options.announce) continue;
+    for (const place::FollowEvent& event : announcer.push(position)) lines.write(event_line(event));
+  }
+  lines.finish();
+  if (!trouble.empty())
+    throw vo::Error(options.walk, trouble, "a source that goes on; what was seen is kept");
+  if (newest) {
+    if (newest->dropped() > 0)
+      spdlog::warn("{}: {} frames were skipped, to keep up", options.walk, newest->dropped());
+    if (interrupted == 0)
+      throw vo::Error(options.walk, fmt::format("sent no picture for {:g} s", kPatience_s),
+                      "a camera that goes on; what was seen is kept");
+    return;
+  }
+  for (const std::string& warning : opened.warnings()) spdlog::warn("{}", warning);
+}
+
+}  // namespace
+
+std::function<void()> declare_follow(Arguments& arguments) {
+  auto options = std::make_shared<FollowOptions>();
+  arguments.positional(
+      "walk", options->walk,
+      "video file, folder of images, camera:N, an rtsp:// address, or - (Y4M on standard input)");
+  arguments.option("--route", options->route, "route database").required();
+  arguments.option("-o,--output", options->output, "folder that follow.jsonl is kept in [none]");
+  arguments.option("--lag-s", options->lag_s, "seconds that a second, surer answer looks back by; 0: none")
+      .range(0, 60);
+  arguments.flag("--announce", options->announce,
+                 "events as lines of their own: found, left_route, back_on_route, turn_ahead, end_of_route");
+  using enum place::SettingGroup;
+  arguments.settings(options->settings, {kReading, kGeneral}, {"preview-width-px"});
+  arguments.force(options->common);
+  arguments.footer(
+      "Prints one JSON object for each frame: frame, time_s, state (searching, on_route, off_route), and on "
+      "the\n"
+      "route traverse, reference_frame, distance_m, sd_m, probability, with poses x_m, y_m, heading_deg.\n"
+      "Examples:\n"
+      "  retrace follow camera:0 --route route.db --announce\n"
+      "  ffmpeg -i rtsp://... -f yuv4mpegpipe - | retrace follow - --route route.db");
+  return [options] { follow(*options); };
+}
+
+}  // namespace retrace

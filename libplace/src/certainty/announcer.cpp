@@ -1,0 +1,115 @@
+#include "place/certainty/announcer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <vo/base/trajectory.hpp>
+
+namespace place {
+namespace {
+
+constexpr double kTurnAhead_m = 8, kEndAhead_m = 3;
+
+/// Metres walked up to each keyframe, by the poses; empty unless all have one.
+std::vector<double> along_poses_m(const Traverse& traverse) {
+  std::vector<double> along;
+  for (std::size_t k = 0; k < traverse.keyframes.size(); ++k) {
+    const std::optional<vo::Pose2>& pose = traverse.keyframes[k].pose;
+    if (!pose) return {};
+    if (k == 0) {
+      along.push_back(0);
+      continue;
+    }
+    const vo::Pose2& before = *traverse.keyframes[k - 1].pose;
+    along.push_back(along.back() + std::hypot(pose->x_m - before.x_m, pose->y_m - before.y_m));
+  }
+  return along;
+}
+
+/// The keyframe at a distance along, held to the ends.
+std::size_t keyframe_at(const std::vector<double>& along_m, double at_m) {
+  const auto after = std::ranges::lower_bound(along_m, at_m);
+  return std::min(along_m.size() - 1, static_cast<std::size_t>(after - along_m.begin()));
+}
+
+}  // namespace
+
+std::string name_of(FollowEventKind kind) {
+  switch (kind) {
+    case FollowEventKind::kFound:
+      return "found";
+    case FollowEventKind::kLeftRoute:
+      return "left_route";
+    case FollowEventKind::kBackOnRoute:
+      return "back_on_route";
+    case FollowEventKind::kTurnAhead:
+      return "turn_ahead";
+    case FollowEventKind::kEndOfRoute:
+      return "end_of_route";
+  }
+  return "";
+}
+
+std::vector<RouteTurn> turns_of(const Traverse& traverse) {
+  constexpr double kReach_m = 2, kLeast_deg = 30;
+  const std::vector<double> along = along_poses_m(traverse);
+  std::vector<RouteTurn> turns;
+  bool turning = false;
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    const auto heading = [&](double at_m) {
+      return traverse.keyframes[keyframe_at(along, at_m)].pose->heading_rad;
+    };
+    const double turn_deg = vo::wrap_angle_rad(heading(along[k] + kReach_m) - heading(along[k] - kReach_m)) *
+                            180 / std::numbers::pi;
+    if (std::abs(turn_deg) < kLeast_deg) {
+      turning = false;
+    } else if (!turning) {
+      turns.push_back({along[k], turn_deg});
+      turning = true;
+    } else if (std::abs(turn_deg) > std::abs(turns.back().turn_deg)) {
+      turns.back() = {along[k], turn_deg};
+    }
+  }
+  return turns;
+}
+
+Announcer::Announcer(const Route& route) {
+  for (const Traverse& traverse : route.traverses)
+    courses_.push_back({traverse.name, along_poses_m(traverse), turns_of(traverse)});
+}
+
+std::vector<FollowEvent> Announcer::push(const Position& position) {
+  std::vector<FollowEvent> events;
+  const auto say = [&](FollowEventKind kind, std::optional<double> distance_m = {},
+                       std::optional<double> turn_deg = {}) {
+    events.push_back({kind, position.frame, position.time_s, distance_m, turn_deg});
+  };
+  if (position.state != state_) {
+    if (position.state == FollowState::kOnRoute)
+      say(left_ ? FollowEventKind::kBackOnRoute : FollowEventKind::kFound);
+    if (position.state == FollowState::kOffRoute) say(FollowEventKind::kLeftRoute);
+    if (position.state != FollowState::kSearching) left_ = position.state == FollowState::kOffRoute;
+    announced_to_m_.reset();
+    end_announced_ = false;
+    state_ = position.state;
+  }
+  if (!position.place) return events;
+  const auto course = std::ranges::find(courses_, position.place->traverse, &Course::traverse);
+  if (course == courses_.end() || course->along_m.empty()) return events;
+  const double at_m = course->along_m[position.place->keyframe];
+  for (const RouteTurn& turn : course->turns) {
+    if (turn.at_m <= at_m || turn.at_m > at_m + kTurnAhead_m || turn.at_m <= announced_to_m_.value_or(-1))
+      continue;
+    say(FollowEventKind::kTurnAhead, turn.at_m - at_m, turn.turn_deg);
+    announced_to_m_ = turn.at_m;
+  }
+  const double left_m = course->along_m.back() - at_m;
+  if (!end_announced_ && left_m <= kEndAhead_m) {
+    say(FollowEventKind::kEndOfRoute, left_m);
+    end_announced_ = true;
+  }
+  return events;
+}
+
+}  // namespace place
