@@ -63,6 +63,8 @@ constexpr std::array kCommands{
     CommandEntry{"odometry", "steps, headings and the trajectory of a walk", declare_odometry},
     CommandEntry{"evaluate-odometry", "steps and trajectory of a walk against the truth",
                  declare_evaluate_odometry},
+    CommandEntry{"sweep-odometry", "which settings follow walks best, by the truth about them",
+                 declare_sweep_odometry},
     CommandEntry{"simulate", "draw the video of a walk, and its truth at every frame", declare_simulate},
     CommandEntry{"config", "write all settings with their defaults, as TOML for --config", declare_config},
 };

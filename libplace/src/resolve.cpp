@@ -57,7 +57,9 @@ bool matters(const Settings& settings, const Setting& setting, const ResolveCont
   if (setting.group != SettingGroup::kOdometry || follows_steps(settings, context)) return true;
   if (setting.name == "camera-height-m") return true;  // of a trajectory from a file
   // Visual odometry sees through the same camera.
-  if (is(settings.motion, "vo") && (setting.name == "fov-deg" || setting.name == "camera")) return true;
+  if ((is(settings.motion, "vo") || is(settings.motion, "vo-sad")) &&
+      (setting.name == "fov-deg" || setting.name == "camera"))
+    return true;
   *why_not = fmt::format("motion is {}, so no steps are followed", settings.motion.value_or("none"));
   return false;
 }
@@ -73,7 +75,8 @@ void choose_odometry(Settings& settings) {
 void choose_density(Settings& settings, const Settings& given) {
   if (is(settings.motion, "none")) return;
   const bool surely_metric = is(settings.motion, "steps");
-  const bool may_be_metric = surely_metric || is(settings.motion, "hybrid") || is(settings.motion, "file");
+  const bool metric_file = is(settings.motion, "file") && !is(given.motion_file_unit, "none");
+  const bool may_be_metric = surely_metric || is(settings.motion, "hybrid") || metric_file;
   const bool only_spacing = given.spacing_m && !given.sampling_n;
   if (may_be_metric && !settings.spacing_m && !settings.sampling_n) settings.spacing_m = kUsualSpacing_m;
   if (!surely_metric && !only_spacing && !settings.sampling_n) settings.sampling_n = kUsualN;
@@ -82,6 +85,8 @@ void choose_density(Settings& settings, const Settings& given) {
 void check_together(const Settings& settings) {
   if (is(settings.motion, "file") && !settings.motion_file)
     throw vo::Error("motion-file", "is missing", "a trajectory file, with motion file");
+  if (is(settings.score, "ratio") && settings.min_fraction != 1)
+    throw vo::Error("score", "is ratio, which part of a line has none of", "min-fraction 1");
   if (settings.v_min.has_value() != settings.v_max.has_value())
     throw vo::Error(settings.v_min ? "v-max" : "v-min", "is missing", "both v-min and v-max, or neither");
   if (settings.v_min && *settings.v_min > *settings.v_max)

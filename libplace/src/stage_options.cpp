@@ -136,10 +136,12 @@ void put_motion(const Settings& s, StageOptions& options) {
               {"steps", vo::MotionSource::kSteps},
               {"hybrid", vo::MotionSource::kHybrid},
               {"vo", vo::MotionSource::kVisualOdometry},
+              {"vo-sad", vo::MotionSource::kHybridAsPublished},
               {"file", vo::MotionSource::kFile}});
   put(s.motion_file, options.motion_file);
   put(s.motion_file_start_s, options.motion_file_fit.start_s);
   put(s.motion_file_gap_s, options.motion_file_fit.max_gap_s);
+  options.motion_file_fit.metric = s.motion_file_unit != "none";
   put_axes(s.axes, options.motion_file_form.axes);
   put(s.every, sampling.every);
   sampling.n = s.sampling_n;
@@ -219,6 +221,8 @@ void put_search(const Settings& s, StageOptions& options) {
   put(s.v_max, matching.search.v_max);
   put(s.min_fraction, matching.search.min_fraction);
   put(s.uniqueness_window, matching.search.uniqueness_window);
+  put_choice(s.score, matching.search.score,
+             {{"difference", MatchScore::kDifference}, {"ratio", MatchScore::kRatio}});
   matching.accept_score = s.accept_score;
   put(s.accept_probability, matching.accept_probability);
   if (s.compat && s.compat != "none") matching.openseqslam = original_options(s);

@@ -33,7 +33,8 @@ struct ResolveContext {
 ///   be metric, unless only `spacing-m` was given.
 /// - `accept-score` is 0.1 with `compat`; otherwise it has no value unless given, and `accept-probability`
 ///   counts.
-/// - `v-min` and `v-max` come together, v-min <= v-max; `motion file` needs `motion-file`; `max-shift-px` is
+/// - `v-min` and `v-max` come together, v-min <= v-max; `motion file` needs `motion-file`; `score ratio`
+/// needs whole lines, `min-fraction 1`; `max-shift-px` is
 ///   less than half of the thumbnail's width.
 ///
 /// Throws `vo::Error` naming the setting, what is wrong, and what was expected.

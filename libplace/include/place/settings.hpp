@@ -28,7 +28,7 @@ struct Settings {
   std::optional<bool> swap_rb;
 
   // Motion and sampling
-  std::optional<std::string> motion, motion_file, axes;
+  std::optional<std::string> motion, motion_file, motion_file_unit, axes;
   std::optional<double> motion_file_start_s, motion_file_gap_s;
   std::optional<int> every;
   std::optional<double> spacing_m, sampling_n;
@@ -56,6 +56,7 @@ struct Settings {
   std::optional<double> v_min, v_max, search_range_rad;
   std::optional<double> min_fraction;
   std::optional<int> uniqueness_window;
+  std::optional<std::string> score;
   std::optional<double> accept_score, accept_probability;
   std::optional<bool> fuse_traverses;
   std::optional<bool> correct_drift;

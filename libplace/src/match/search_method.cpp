@@ -7,6 +7,7 @@
 #include "place/match/search_path.hpp"
 #include "place/match/sequence_searcher.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -32,7 +33,12 @@ SearchResult search_straight_lines(const CostMatrix& enhanced, const SearchOptio
     searcher.push(block_of(part), part.references);
     return searcher.finish();
   };
-  return {.matches = search_by_stretches(enhanced, options.sequence, options.gaps, search)};
+  SearchResult result{.matches = search_by_stretches(enhanced, options.sequence, options.gaps, search)};
+  if (options.sequence.score == MatchScore::kRatio && !enhanced.values.empty()) {
+    const float least = *std::ranges::min_element(enhanced.values);
+    score_by_ratio(result.matches, least - static_cast<float>(range.centre));
+  }
+  return result;
 }
 
 constexpr std::array kMethods{

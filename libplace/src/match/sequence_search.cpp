@@ -12,4 +12,12 @@ std::vector<SequenceMatch> search_sequences(const CostMatrix& enhanced,
   return searcher.finish();
 }
 
+void score_by_ratio(std::vector<SequenceMatch>& matches, float least) {
+  for (SequenceMatch& match : matches) {
+    if (!match.reference) continue;
+    const float elsewhere = match.cost + match.score - least;
+    match.score = elsewhere > 0 ? match.score / elsewhere : 0;
+  }
+}
+
 }  // namespace place

@@ -10,6 +10,8 @@ std::string_view name_of(MotionSource source) {
       return "steps";
     case MotionSource::kVisualOdometry:
       return "vo";
+    case MotionSource::kHybridAsPublished:
+      return "vo-sad";
     case MotionSource::kHybrid:
       return "hybrid";
     case MotionSource::kFile:

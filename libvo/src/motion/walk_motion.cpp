@@ -5,6 +5,7 @@
 #include "vo/gait/lowpass.hpp"
 #include "vo/gait/playback.hpp"
 #include "vo/motion/height_by_steps.hpp"
+#include "vo/motion/published_hybrid.hpp"
 
 #include <optional>
 #include <stdexcept>
@@ -32,6 +33,18 @@ WalkMotion by_track_alone(const DisplacementTrack& track) {
         frame.valid ? FrameDisplacement{frame.displacement, frame.sigma, DisplacementSource::kTrack}
                     : FrameDisplacement{});
   }
+  return motion;
+}
+
+WalkMotion by_track_and_error(const Walk& walk, const VisualMotionOptions& options) {
+  WalkMotion motion;
+  motion.visual = visual_motion_if_any(walk, options);
+  MotionEvidence evidence{.time_s = walk.time_s, .track = &*walk.track};
+  if (motion.visual) {
+    evidence.errors = &motion.visual->errors;
+    evidence.errors_known = motion.visual->usable;
+  }
+  motion.frames = hybrid_as_published(evidence);
   return motion;
 }
 
@@ -139,9 +152,12 @@ WalkMotion motion_by(const Walk& walk, MotionSource source, const WalkMotionOpti
     case MotionSource::kHybrid:
       return by_all(walk, can_show_steps, options);
     case MotionSource::kVisualOdometry:
+    case MotionSource::kHybridAsPublished:
     case MotionSource::kFile:
       if (!walk.track) throw std::invalid_argument("walk_motion: a walk with a track expected");
-      return source == MotionSource::kFile ? by_all(walk, false, options) : by_track_alone(*walk.track);
+      if (source == MotionSource::kFile) return by_all(walk, false, options);
+      return source == MotionSource::kVisualOdometry ? by_track_alone(*walk.track)
+                                                     : by_track_and_error(walk, options.visual);
     case MotionSource::kNone:
       break;
   }
@@ -152,7 +168,8 @@ WalkMotion motion_by(const Walk& walk, MotionSource source, const WalkMotionOpti
 
 void keep_for(MotionSource source, WalkOptions& options) {
   options.track_features = source == MotionSource::kSteps || source == MotionSource::kHybrid;
-  options.visual_odometry = source == MotionSource::kVisualOdometry || source == MotionSource::kHybrid;
+  options.visual_odometry = source == MotionSource::kVisualOdometry || source == MotionSource::kHybrid ||
+                            source == MotionSource::kHybridAsPublished;
 }
 
 WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {

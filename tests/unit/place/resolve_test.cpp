@@ -387,4 +387,33 @@ TEST(StageOptions, AreWhatSettingsSay) {
   EXPECT_TRUE(place::stage_options(place::resolve({}, {}), true).walk.track_features);
 }
 
+TEST(Resolve, ARatioIsOfWholeLines) {
+  Settings settings;
+  settings.search = "lines";
+  settings.score = "ratio";
+  expect_refused(settings, {}, "score: is ratio, which part of a line has none of; expected min-fraction 1");
+  settings.min_fraction = 1;
+  EXPECT_EQ(place::stage_options(place::resolve(settings, {})).matching.search.score,
+            place::MatchScore::kRatio);
+  settings.search = "path";
+  settings.min_fraction.reset();
+  expect_refused(settings, {}, "score: has no effect: search is path");
+}
+
+TEST(Resolve, AFileWithoutAUnitIsSampledByEq4) {
+  Settings settings;
+  settings.motion = "file";
+  settings.motion_file = "camera.tum";
+  settings.motion_file_unit = "none";
+  const Settings resolved = place::resolve(settings, {});
+  EXPECT_EQ(resolved.sampling_n, 6);
+  EXPECT_FALSE(resolved.spacing_m);
+  EXPECT_FALSE(place::stage_options(resolved).motion_file_fit.metric);
+  EXPECT_EQ(place::resolve(resolved, {}), resolved);
+  settings.spacing_m = 1;
+  expect_refused(settings, {}, "spacing-m: has no effect: motion-file-unit is none");
+  settings.motion_file_unit.reset();
+  EXPECT_TRUE(place::stage_options(place::resolve(settings, {})).motion_file_fit.metric);
+}
+
 }  // namespace

@@ -7,6 +7,12 @@
 
 namespace place {
 
+/// How the best line is held against the best one outside the uniqueness window.
+enum class MatchScore {
+  kDifference,  ///< of their costs, in standard deviations
+  kRatio,       ///< 1 less that of their mean costs over the least of the matrix (SeqSLAM, OpenSeqSLAM)
+};
+
 /// Settings of `search_sequences`.
 struct SequenceSearchOptions {
   int length = 10;  ///< query keyframes on a line (SeqSLAM's d_s)
@@ -18,6 +24,7 @@ struct SequenceSearchOptions {
   std::optional<double> v_max;  ///< ... in steps of 1 / length; both or neither, instead of the range above
   double min_fraction = 0.5;    ///< at an end, the share of a line that must lie inside the matrix
   int uniqueness_window = 10;   ///< reference keyframes on either side of a match that do not compete with it
+  MatchScore score = MatchScore::kDifference;  ///< of whole lines only, if it is the ratio
 
   /// False, with a reason that names field, value and constraint, if a field is out of its range.
   bool is_valid(std::string* reason) const;

@@ -30,4 +30,11 @@ struct SequenceMatch {
 std::vector<SequenceMatch> search_sequences(const CostMatrix& enhanced,
                                             const SequenceSearchOptions& options = {});
 
+/// Turns scores that are differences into SeqSLAM's uniqueness: 1 - a / b of the mean costs a of the best
+/// line and b of the best one outside the window, both over the least cost of the matrix, which the original
+/// sets to 0; from 0 for no difference to 1. SeqSLAM's own is a / b, smaller where a match is surer.
+/// `matches`: of whole lines, whose costs are means; `least`: as the lines' costs are counted, from the mean
+/// of the matrix. O(n).
+void score_by_ratio(std::vector<SequenceMatch>& matches, float least);
+
 }  // namespace place

@@ -36,7 +36,8 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// or if they were found during less than half of the time that the camera is seen to move. Steps that put
 /// the camera lower or higher than people carry one (`height_by_steps_m`) are not steps: then `pedestrian`
 /// has none. A camera that never leaves its first view, and sees no steps, is still: its displacements are 0.
-/// `kFile` is the same without steps, with the track of a file. `kVisualOdometry` is the track unprocessed:
+/// `kFile` is the same without steps, with the track of a file. `kHybridAsPublished` is
+/// `hybrid_as_published`, each segment in a unit of its own. `kVisualOdometry` is the track unprocessed:
 /// nothing where it is lost, each segment in its own unit. Where points were tracked, `warnings` include slow
 /// motion and time lapses (`impossible_cadence_hz`).
 ///

@@ -1,5 +1,6 @@
 #include "support/drawn_costs.hpp"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,31 @@ TEST(SearchMethod, EachTakesAWalkOfNothing) {
   for (const place::SearchMethod& method : place::search_methods()) {
     EXPECT_THAT(method.search(place::make_cost_matrix(0, 20), {}).matches, SizeIs(0)) << method.name;
     EXPECT_THAT(method.search(place::make_cost_matrix(4, 0), {}).matches, SizeIs(4)) << method.name;
+  }
+}
+
+TEST(SearchMethod, LinesScoreByTheRatioOfTheOriginalIfAskedTo) {
+  // By the definition, from costs of single keyframes: a of the least of a row, b of the least outside the
+  // window, both over the least of all.
+  const auto costs = walked_costs(30, 60, 10, 1, 4.0F, 3);
+  place::SearchOptions options;
+  options.sequence.length = 1;
+  options.sequence.min_fraction = 1;
+  options.sequence.score = place::MatchScore::kRatio;
+  const auto found = place::search_method("lines").search(costs, options);
+  options.sequence.score = place::MatchScore::kDifference;
+  const auto by_difference = place::search_method("lines").search(costs, options);
+  const double least = *std::ranges::min_element(costs.values);
+  for (std::size_t q = 0; q < 30; ++q) {
+    const std::size_t best = *found.matches[q].reference;
+    EXPECT_EQ(best, by_difference.matches[q].reference);
+    double a = costs.row(q)[best], b = 1e9;
+    for (std::size_t r = 0; r < 60; ++r)
+      if (std::max(r, best) - std::min(r, best) > 10) b = std::min<double>(b, costs.row(q)[r]);
+    EXPECT_NEAR(found.matches[q].score, 1 - (a - least) / (b - least),
+                1e-4);  // costs are rounded to 2^-20 or so
+    EXPECT_GE(found.matches[q].score, 0);
+    EXPECT_LE(found.matches[q].score, 1);
   }
 }
 

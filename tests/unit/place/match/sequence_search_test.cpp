@@ -280,4 +280,18 @@ TEST(SearchSequences, IsTheSameForAnyThreadCount) {
   }
 }
 
+TEST(ScoreByRatio, ByHand) {
+  // Best and second cost -2 and -1 over a least of -3: 1 and 2, so that SeqSLAM's uniqueness is 1/2; one that
+  // is no surer than another has 0; one without a match keeps what it has.
+  std::vector<place::SequenceMatch> matches{
+      {.reference = 4, .cost = -2, .score = 1}, {.reference = 4, .cost = -1, .score = 0}, {}};
+  place::score_by_ratio(matches, -3);
+  EXPECT_EQ(matches[0].score, 0.5F);
+  EXPECT_EQ(matches[1].score, 0);
+  EXPECT_FALSE(matches[2].reference);
+  std::vector<place::SequenceMatch> constant{{.reference = 0, .cost = 0, .score = 0}};
+  place::score_by_ratio(constant, 0);
+  EXPECT_EQ(constant[0].score, 0);
+}
+
 }  // namespace

@@ -53,6 +53,23 @@ TEST(WalkMotion, OfATrackAloneIsNothingWhereItIsLost) {
   EXPECT_EQ(motion.frames[60].value, walk.track->frames[60].displacement);
 }
 
+TEST(WalkMotion, AsPublishedATrackIsFilledByAlignmentErrorInItsOwnUnit) {
+  vo::Walk walk = wall_walk();
+  walk.track = track_of(walk);
+  const vo::WalkMotion motion = vo::walk_motion(walk, vo::MotionSource::kHybridAsPublished);
+  EXPECT_FALSE(motion.metric);
+  EXPECT_TRUE(motion.visual.has_value());
+  EXPECT_EQ(motion.frames[60].value, walk.track->frames[60].displacement);
+  EXPECT_EQ(motion.frames[200].source, vo::DisplacementSource::kAlignmentError);
+  double filled = 0, truly = 0;
+  for (std::size_t i = 100; i < 300; ++i) {
+    filled += motion.frames[i].value;
+    truly += walk.track->frames[i].displacement;
+  }
+  // Learned from 100 frames of neighbours alone: alignment error is as crude as below.
+  EXPECT_NEAR(filled, truly, 0.4 * truly);
+}
+
 TEST(WalkMotion, OfAFileIsFilledByAlignmentError) {
   vo::Walk walk = wall_walk();
   walk.track = track_of(walk);
@@ -81,8 +98,9 @@ TEST(WalkMotion, OfAllWithoutStepsOrTrackIsInFrames) {
 
 TEST(WalkMotion, RefusesWhatTheWalkWasNotReadFor) {
   const vo::Walk walk = wall_walk();
-  for (const vo::MotionSource source : {vo::MotionSource::kNone, vo::MotionSource::kSteps,
-                                        vo::MotionSource::kVisualOdometry, vo::MotionSource::kFile}) {
+  for (const vo::MotionSource source :
+       {vo::MotionSource::kNone, vo::MotionSource::kSteps, vo::MotionSource::kVisualOdometry,
+        vo::MotionSource::kFile, vo::MotionSource::kHybridAsPublished}) {
     EXPECT_THROW(vo::walk_motion(walk, source), std::invalid_argument) << vo::name_of(source);
   }
   const vo::Walk stand = Wall(200, 7).walk(std::vector<double>(100, 5));
