@@ -8,6 +8,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 preset=${RETRACE_PRESET:-release}
 bash apps/setup.sh --tests
-cmake --preset "$preset" -DRETRACE_BUILD_TESTS=ON -DRETRACE_WERROR="${RETRACE_WERROR:-OFF}" >/dev/null
+python=(-DRETRACE_BUILD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3)  # Debian's, which has numpy and pytest
+[[ "$preset" == release ]] || python=()
+cmake --preset "$preset" "${python[@]}" -DRETRACE_BUILD_TESTS=ON -DRETRACE_WERROR="${RETRACE_WERROR:-OFF}" >/dev/null
 cmake --build --preset "$preset"
 ctest --preset "$preset" "$@"

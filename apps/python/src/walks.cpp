@@ -1,0 +1,342 @@
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "settings_arguments.hpp"
+
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <pybind11/stl.h>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include <place/certainty/follower.hpp>
+#include <place/place.hpp>
+#include <place/route/survey.hpp>
+#include <place/stage_options.hpp>
+#include <vo/io/trajectory_io.hpp>
+#include <vo/motion/walk_motion.hpp>
+
+namespace retrace_python {
+namespace {
+
+using Sources = std::variant<std::string, std::vector<std::string>>;
+
+std::vector<std::string> list_of(const Sources& sources) {
+  if (const auto* one = std::get_if<std::string>(&sources)) return {*one};
+  return std::get<std::vector<std::string>>(sources);
+}
+
+/// A trajectory as arrays.
+py::dict as_dict(const vo::Trajectory& trajectory) {
+  py::dict result;
+  result["time_s"] = array_of<double>(trajectory, [](const auto& p) { return p.time_s; });
+  result["x_m"] = array_of<double>(trajectory, [](const auto& p) { return p.pose.x_m; });
+  result["y_m"] = array_of<double>(trajectory, [](const auto& p) { return p.pose.y_m; });
+  result["heading_deg"] =
+      array_of<double>(trajectory, [](const auto& p) { return p.pose.heading_rad * 180 / std::numbers::pi; });
+  return result;
+}
+
+vo::Walk read_walk(const Sources& sources, const place::Route* route, const py::object& progress,
+                   const py::kwargs& arguments) {
+  const place::Settings settings = settings_of(arguments);
+  const std::vector<std::string> files = list_of(sources);
+  const vo::ProgressCallback callback = progress_of(progress);
+  const py::gil_scoped_release unlocked;
+  return route == nullptr ? place::read(files, settings, callback)
+                          : place::read(files, *route, settings, callback);
+}
+
+py::array_t<std::uint8_t> thumbnails_of(const vo::Walk& walk) {
+  const vo::ImageStack& stack = walk.thumbnails;
+  py::array_t<std::uint8_t> array({static_cast<py::ssize_t>(stack.size()),
+                                   static_cast<py::ssize_t>(stack.height),
+                                   static_cast<py::ssize_t>(stack.width)});
+  std::copy(stack.pixels.begin(), stack.pixels.end(), array.mutable_data());
+  return array;
+}
+
+void add(place::Route& route, const std::string& name, const vo::Walk& walk, const std::string& truth,
+         const std::string& trajectory, const std::string& track, bool replace, const py::kwargs& arguments) {
+  const place::Settings settings = settings_of(arguments);
+  if ((truth.empty() ? 0 : 1) + (trajectory.empty() ? 0 : 1) + (track.empty() ? 0 : 1) > 1)
+    throw py::value_error("one of truth, trajectory and track expected");
+  const py::gil_scoped_release unlocked;
+  std::optional<place::Survey> survey;
+  if (!truth.empty()) survey = place::survey_from_truth(truth, walk);
+  if (!trajectory.empty()) survey = place::survey_from_trajectory(trajectory, walk);
+  if (!track.empty()) survey = place::survey_from_track(track, walk, route);
+  place::add(route, name, walk, survey, settings, replace);
+}
+
+py::list traverses_of(const place::Route& route) {
+  py::list all;
+  for (const place::Traverse& traverse : route.traverses) {
+    const auto& keyframes = traverse.keyframes;
+    py::dict one;
+    one["name"] = traverse.name;
+    one["source"] = traverse.source;
+    one["frame"] = array_of<std::int64_t>(keyframes, [](const auto& k) { return k.frame; });
+    one["time_s"] = array_of<double>(keyframes, [](const auto& k) { return k.time_s; });
+    one["distance_m"] = array_of<double>(keyframes, [](const auto& k) { return or_nan(k.distance_m); });
+    all.append(one);
+  }
+  return all;
+}
+
+place::Run localise(const place::Route& route, const vo::Walk& walk, const py::kwargs& arguments) {
+  const place::Settings settings = settings_of(arguments);
+  const py::gil_scoped_release unlocked;
+  return place::localise(route, walk, settings);
+}
+
+py::dict evaluate(const place::Run& run, const std::string& query_truth, const std::string& reference_truth,
+                  const std::string& pairs, std::optional<double> tolerance_m,
+                  std::optional<double> tolerance_frames) {
+  if (pairs.empty() == (query_truth.empty() || reference_truth.empty()))
+    throw py::value_error("pairs, or query_truth and reference_truth, expected");
+  place::GroundTruth truth;
+  if (pairs.empty()) {
+    truth = place::truth(query_truth, reference_truth);
+  } else {
+    truth.pairs = place::read_pairs(pairs);
+  }
+  const place::RunEvaluation found =
+      place::evaluate(run, truth, {.tolerance_m = tolerance_m, .tolerance_frames = tolerance_frames});
+  const place::Evaluation& e = found.evaluation;
+  py::dict result;
+  result["queries"] = e.queries;
+  result["with_truth"] = e.with_truth;
+  result["max_f1"] = e.best.f1;
+  result["tp"] = e.best.true_positives;
+  result["fp"] = e.best.false_positives;
+  result["fn"] = e.best.false_negatives;
+  result["precision"] = e.best.precision;
+  result["recall"] = e.best.recall;
+  result["auc_pr"] = e.auc_pr;
+  result["recall_at_1"] = e.recall_at_1;
+  result["accepted_precision"] = found.accepted.precision;
+  result["accepted_recall"] = found.accepted.recall;
+  result["calibration_error"] =
+      found.calibration ? py::object(py::float_(found.calibration->error)) : py::object(py::none());
+  result["error"] = array_of<double>(found.errors, [](const auto& error) { return or_nan(error.error); });
+  return result;
+}
+
+/// What `odometry` found.
+struct Odometry {
+  vo::Walk walk;
+  vo::WalkMotion motion;
+};
+
+Odometry odometry(const Sources& sources, const py::object& progress, const py::kwargs& arguments) {
+  const place::Settings settings = settings_of(arguments);
+  const std::vector<std::string> files = list_of(sources);
+  const vo::ProgressCallback callback = progress_of(progress);
+  const py::gil_scoped_release unlocked;
+  place::StageOptions stages =
+      place::stage_options(place::resolve(settings, {.purpose = place::Purpose::kOdometry}), true);
+  stages.walk.preview_width_px = 0;
+  Odometry result;
+  result.walk = vo::read_walk(files, stages.walk, callback);
+  result.motion = vo::motion_with_steps(result.walk, stages.sampling.source, stages.sampling.motion);
+  return result;
+}
+
+py::dict steps_of(const Odometry& odometry) {
+  const std::vector<vo::Step>& steps = odometry.motion.pedestrian->detection.steps;
+  py::dict result;
+  result["frame"] =
+      array_of<std::int64_t>(steps, [](const auto& s) { return static_cast<std::int64_t>(s.frame); });
+  result["time_s"] = array_of<double>(steps, [](const auto& s) { return s.time_s; });
+  result["left"] = array_of<bool>(steps, [](const auto& s) { return s.leg == vo::Leg::kLeft; });
+  return result;
+}
+
+/// A follower that counts the frames it is given.
+struct PythonFollower {
+  place::Follower follower;
+  std::int64_t frames = 0;
+};
+
+py::dict as_dict(const place::FollowedPlace& at) {
+  py::dict result;
+  result["traverse"] = at.traverse;
+  result["reference_frame"] = at.reference_frame;
+  result["probability"] = at.probability;
+  result["sd_keyframes"] = at.sd_keyframes;
+  if (at.distance_m) result["distance_m"] = *at.distance_m;
+  if (at.sd_m) result["sd_m"] = *at.sd_m;
+  if (!at.pose) return result;
+  result["x_m"] = at.pose->x_m;
+  result["y_m"] = at.pose->y_m;
+  result["heading_deg"] = at.pose->heading_rad * 180 / std::numbers::pi;
+  return result;
+}
+
+py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
+  if (image.ndim() != 2 && !(image.ndim() == 3 && image.shape(2) == 3))
+    throw py::value_error(
+        "image: uint8 (height, width) or (height, width, 3) in the order blue, green, red expected");
+  place::Position position;
+  {
+    const int kind = image.ndim() == 2 ? CV_8UC1 : CV_8UC3;
+    // OpenCV has no pictures that are only read; this one is.
+    const cv::Mat view(static_cast<int>(image.shape(0)), static_cast<int>(image.shape(1)), kind,
+                       const_cast<std::uint8_t*>(image.data()));
+    const py::gil_scoped_release unlocked;
+    position = self.follower.push({.index = self.frames++, .time_s = time_s, .image = view, .colour = {}});
+  }
+  py::dict result = position.place ? as_dict(*position.place) : py::dict();
+  result["frame"] = position.frame;
+  result["time_s"] = position.time_s;
+  result["state"] = place::name_of(position.state);
+  result["off_route"] = position.off_route;
+  if (!position.lag_frame) return result;
+  py::dict lag = position.lag_place ? as_dict(*position.lag_place) : py::dict();
+  lag["frame"] = *position.lag_frame;
+  result["lag"] = lag;
+  return result;
+}
+
+}  // namespace
+
+void bind_walks(py::module_& module) {
+  py::class_<vo::Walk>(module, "Walk", "What one pass over a recording kept of it.")
+      .def_readonly("source", &vo::Walk::source)
+      .def_property_readonly("frames", &vo::Walk::frames)
+      .def_property_readonly(
+          "time_s", [](const vo::Walk& w) { return array_of(w.time_s); },
+          "float64 (frames,), seconds since the first")
+      .def_property_readonly("thumbnails", &thumbnails_of, "uint8 (frames, height, width)")
+      .def_readonly("warnings", &vo::Walk::warnings);
+
+  py::class_<place::Route, std::shared_ptr<place::Route>>(module, "Route",
+                                                          "A reference route: any number of traverses of it.")
+      .def(py::init([](const py::kwargs& arguments) {
+             return std::make_shared<place::Route>(place::new_route(settings_of(arguments)));
+           }),
+           "A route without traverses. Keywords: settings.")
+      .def_static(
+          "open",
+          [](const std::string& path) { return std::make_shared<place::Route>(place::read_route(path)); },
+          py::arg("path"), "Reads a route database.")
+      .def(
+          "save", [](const place::Route& route, const std::string& path) { place::write_route(path, route); },
+          py::arg("path"), "Writes the route database, whole or not at all.")
+      .def("add", &add, py::arg("name"), py::arg("walk"), py::kw_only(), py::arg("truth") = "",
+           py::arg("trajectory") = "", py::arg("track") = "", py::arg("replace") = false,
+           "Samples a walk and puts it among the traverses, surveyed by one of the files: truth.csv, a "
+           "trajectory (TUM), a "
+           "GPS track (GPX).")
+      .def_property_readonly("traverses", &traverses_of,
+                             "a list of dicts: name, source, and of its keyframes frame, time_s, distance_m");
+
+  py::class_<place::Run>(module, "Run",
+                         "A walk found on a route; arrays have one entry for each keyframe of the walk.")
+      .def_property_readonly("frame",
+                             [](const place::Run& r) {
+                               return array_of<std::int64_t>(r.matches,
+                                                             [](const auto& m) { return m.query_frame; });
+                             })
+      .def_property_readonly("time_s",
+                             [](const place::Run& r) {
+                               return array_of<double>(r.matches,
+                                                       [](const auto& m) { return m.query_time_s; });
+                             })
+      .def_property_readonly(
+          "reference_frame",
+          [](const place::Run& r) {
+            return array_of<std::int64_t>(r.matches,
+                                          [](const auto& m) { return m.place ? m.place->frame : -1; });
+          },
+          "int64, -1 for none")
+      .def_property_readonly(
+          "reference_distance_m",
+          [](const place::Run& r) {
+            return array_of<double>(
+                r.matches, [](const auto& m) { return m.place ? or_nan(m.place->distance_m) : or_nan({}); });
+          },
+          "float64, NaN where not known")
+      .def_property_readonly("score",
+                             [](const place::Run& r) {
+                               return array_of<double>(r.matches, [](const auto& m) { return m.score; });
+                             })
+      .def_property_readonly("probability",
+                             [](const place::Run& r) {
+                               return array_of<double>(r.matches,
+                                                       [](const auto& m) { return or_nan(m.probability); });
+                             })
+      .def_property_readonly("sd_m",
+                             [](const place::Run& r) {
+                               return array_of<double>(r.matches,
+                                                       [](const auto& m) { return or_nan(m.sd_m); });
+                             })
+      .def_property_readonly("accepted",
+                             [](const place::Run& r) {
+                               return array_of<bool>(r.matches, [](const auto& m) { return m.accepted; });
+                             })
+      .def_property_readonly(
+          "trajectory",
+          [](const place::Run& r) -> py::object {
+            if (!r.trajectory) return py::none();
+            return as_dict(*r.trajectory);
+          },
+          "the walk's odometry without its drift, as a dict of arrays time_s, x_m, y_m, heading_deg; None "
+          "where there is none")
+      .def_readonly("warnings", &place::Run::warnings);
+
+  py::class_<Odometry>(module, "Odometry", "Steps and displacement of a walk.")
+      .def_property_readonly(
+          "time_s", [](const Odometry& o) { return array_of(o.walk.time_s); }, "float64 (frames,)")
+      .def_property_readonly(
+          "displacement", [](const Odometry& o) { return array_of(vo::displacements(o.motion)); },
+          "float64 (frames,): of each frame since the one before")
+      .def_property_readonly(
+          "unit", [](const Odometry& o) { return std::string(o.motion.metric ? "m" : "mean_speed"); })
+      .def_property_readonly("steps", &steps_of, "a dict of arrays: frame, time_s, left")
+      .def_property_readonly("trajectory", [](const Odometry& o) { return as_dict(o.motion.trajectory); })
+      .def_property_readonly("warnings", [](const Odometry& o) {
+        std::vector<std::string> all = o.walk.warnings;
+        all.insert(all.end(), o.motion.warnings.begin(), o.motion.warnings.end());
+        return all;
+      });
+
+  py::class_<PythonFollower>(module, "Follower", "Says where on a route a walker is, frame by frame.")
+      .def(
+          py::init([](const std::shared_ptr<place::Route>& route, double lag_s, const py::kwargs& arguments) {
+            return PythonFollower{place::Follower(*route, settings_of(arguments), {.lag_s = lag_s})};
+          }),
+          py::arg("route"), py::kw_only(), py::arg("lag_s") = 0.0, py::keep_alive<1, 2>(),
+          "`lag_s`: seconds that a second, surer answer looks back by; 0: none.")
+      .def("push", &push, py::arg("image"), py::arg("time_s"),
+           "The next picture, uint8 (height, width) or BGR (height, width, 3), and its time, later than the "
+           "one before. A dict "
+           "like a line of `retrace follow`: frame, time_s, state ('searching', 'on_route', 'off_route'), "
+           "off_route (the "
+           "probability of being off it), and on the route traverse, reference_frame, distance_m, sd_m, "
+           "probability, x_m, y_m, "
+           "heading_deg.");
+
+  module.def("read_walk", &read_walk, py::arg("source"), py::arg("route") = py::none(), py::kw_only(),
+             py::arg("progress") = py::none(),
+             "Reads a recording: a video, a folder of images, camera:N, or a list of files that are one "
+             "walk; with a route as a "
+             "walk that is to be found on it. `progress(stage, done, total)` returns False to stop early. "
+             "Keywords: settings.");
+  module.def("localise", &localise, py::arg("route"), py::arg("walk"),
+             "Finds a walk on a route: a Run. Keywords: settings.");
+  module.def("evaluate", &evaluate, py::arg("run"), py::kw_only(), py::arg("query_truth") = "",
+             py::arg("reference_truth") = "", py::arg("pairs") = "", py::arg("tolerance_m") = py::none(),
+             py::arg("tolerance_frames") = py::none(),
+             "Precision, recall and errors of a run against truth.csv of both walks, or pairs.csv; a dict "
+             "like metrics.json.");
+  module.def("odometry", &odometry, py::arg("source"), py::kw_only(), py::arg("progress") = py::none(),
+             "Steps, displacement and trajectory of a recording: an Odometry. Keywords: settings.");
+}
+
+}  // namespace retrace_python
