@@ -48,7 +48,8 @@ void print_table(const LocaliseOptions& options, const vo::Walk& walk, const pla
 
 void localise(const LocaliseOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
-  const place::Route route = place::read_route(options.route);
+  const place::Route route =
+      place::read_route(options.route, {.view_points = options.settings.verify.value_or(0) > 0});
   if (route.traverses.empty())
     throw vo::Error(options.route, "has no traverse", "a route built by `retrace build`");
   place::resolve(options.settings, {.route = &route.settings, .route_has_poses = place::has_poses(route)});

@@ -1,5 +1,6 @@
 #include "place/place.hpp"
 
+#include "place/match/verify_matches.hpp"
 #include "place/route/survey.hpp"
 #include "place/stage_options.hpp"
 #include "place/trajectory/pose_fixes.hpp"
@@ -38,6 +39,14 @@ void check_read_with(const StageOptions& options, const vo::Walk& walk) {
       options.walk.recorders.empty() || walk.records.size() == options.walk.recorders.size();
   if (!same_size || !tracked || !recorded)
     throw std::invalid_argument("a walk read with the route's settings expected: place::read");
+}
+
+/// A route without points cannot be looked at again.
+void check_points(const Route& route, const StageOptions& options) {
+  if (options.verify == 0 || has_view_points(route)) return;
+  throw vo::Error("verify",
+                  fmt::format("is {} and the route keeps no points of its keyframes", options.verify),
+                  "0, or a route built with `retrace build --view-points true`");
 }
 
 /// The walk's odometry at its keyframes; none, with the reason, if it has none.
@@ -110,7 +119,9 @@ vo::Walk read(std::span<const std::string> sources, const Route& route, const Se
               const vo::ProgressCallback& progress) {
   const ResolveContext context = on(route, Purpose::kLocalise);
   const Settings resolved = resolve(settings, context);
-  return read_as(sources, stage_options(resolved, follows_steps(resolved, context)), progress);
+  const StageOptions options = stage_options(resolved, follows_steps(resolved, context));
+  check_points(route, options);
+  return read_as(sources, options, progress);
 }
 
 AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
@@ -150,6 +161,7 @@ Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
   Run run;
   run.settings = resolve(settings, context);
   const StageOptions options = stage_options(run.settings, follows_steps(run.settings, context));
+  check_points(route, options);
   check_read_with(options, walk);
   run.sampled = sample_walk(walk, options.sampling, &route);
   RouteMatches found = match_on_route(route, walk.time_s, run.sampled, options.matching, callback);
@@ -160,6 +172,8 @@ Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
   run.wrong_share = found.wrong_share;
   run.looked_at = found.looked_at;
   run.warnings = std::move(found.warnings);
+  if (options.verify > 0)
+    verify_matches(route, run.sampled.view_points, {.places = options.verify}, run.matches);
   run.drift = corrected(route, walk, run, options);
   if (run.drift.why_not.empty()) run.trajectory = poses_of(run.drift.corrected);
   return run;

@@ -43,11 +43,18 @@ Settings with_route(Settings settings, const Settings& route) {
 bool serves(Purpose purpose, const Setting& setting) {
   if (purpose == Purpose::kLocalise) return true;
   if (purpose == Purpose::kOdometry) {
-    for (const std::string_view sampling : {"every", "spacing-m", "sampling-n", "tie-scale"})
-      if (setting.name == sampling) return false;
+    for (const std::string_view of_keyframes :
+         {"view-points", "every", "spacing-m", "sampling-n", "tie-scale"})
+      if (setting.name == of_keyframes) return false;
   }
   if (purpose == Purpose::kOdometry && setting.group == SettingGroup::kDescribing) return false;
   return setting.group != SettingGroup::kSearch;
+}
+
+/// Whether SURF points of the keyframes are kept: of a walk to be localised if its matches are verified.
+bool keeps_points(const Settings& settings, Purpose purpose) {
+  return purpose == Purpose::kLocalise ? settings.verify.value_or(0) > 0
+                                       : settings.view_points.value_or(false);
 }
 
 /// `has_effect`; for settings of odometry, also whether steps are tracked.
@@ -56,10 +63,10 @@ bool matters(const Settings& settings, const Setting& setting, const ResolveCont
   if (!has_effect(settings, setting, why_not)) return false;
   if (setting.group != SettingGroup::kOdometry || follows_steps(settings, context)) return true;
   if (setting.name == "camera-height-m") return true;  // of a trajectory from a file
-  // Visual odometry sees through the same camera.
-  if ((is(settings.motion, "vo") || is(settings.motion, "vo-sad")) &&
-      (setting.name == "fov-deg" || setting.name == "camera"))
-    return true;
+  // Visual odometry and the points of keyframes are seen by the same camera.
+  const bool sees = is(settings.motion, "vo") || is(settings.motion, "vo-sad");
+  const bool of_camera = setting.name == "fov-deg" || setting.name == "camera";
+  if (of_camera && (sees || keeps_points(settings, context.purpose))) return true;
   *why_not = fmt::format("motion is {}, so no steps are followed", settings.motion.value_or("none"));
   return false;
 }

@@ -90,6 +90,14 @@ constexpr std::array kTable{
             .most = 10,
             .description = "a patch of less deviation counts as having this share of the median deviation of "
                            "the picture's patches"},
+    Setting{.name = "view-points",
+            .field = &Settings::view_points,
+            .group = kReading,
+            .of_route = kFixed,
+            .standard = "false",
+            .description = "keep the 200 strongest SURF points of each keyframe in the route, 7.4 kB, for "
+                           "localise --verify",
+            .at_reading = true},
 
     Setting{.name = "descriptor",
             .field = &Settings::descriptor,
@@ -546,6 +554,18 @@ constexpr std::array kTable{
             .when = "compat=none&!accept-score",
             .description = "least probability that an accepted match is at the right place",
             .everyday = true},
+    Setting{.name = "verify",
+            .field = &Settings::verify,
+            .group = kSearch,
+            .of_route = kNo,
+            .standard = "0",
+            .least = 0,
+            .most = 50,
+            .description = "reference keyframes about a match that are looked at again by their SURF points, "
+                           "for yaw_deg and lateral_m [7 will do]; needs a route built with view-points; 0 "
+                           "for none",
+            .everyday = true,
+            .at_reading = true},
     Setting{.name = "correct-drift",
             .field = &Settings::correct_drift,
             .group = kSearch,

@@ -12,6 +12,7 @@
 
 #include <vo/base/error.hpp>
 #include <vo/io/camera_calibration.hpp>
+#include <vo/tracks/view_points.hpp>
 
 namespace place {
 namespace {
@@ -201,6 +202,18 @@ openseqslam::Options original_options(const Settings& s) {
   return original;
 }
 
+/// Keeps the points of every frame, by the camera of `put_odometry`, after what descriptors keep.
+void put_points(const Settings& s, StageOptions& options) {
+  const bool asked = s.verify ? *s.verify > 0 : s.view_points.value_or(false);
+  put(s.verify, options.verify);
+  if (!asked) return;
+  options.sampling.points_record = options.walk.recorders.size();
+  const vo::ViewCamera camera{.fov_deg = options.walk.tracker.fov_deg,
+                              .calibrated = options.walk.tracker.camera};
+  options.walk.recorders.push_back(
+      [camera](const vo::Frame& frame) { return vo::pack_view_points(frame.image, camera); });
+}
+
 void put_search(const Settings& s, StageOptions& options) {
   RouteMatchingOptions& matching = options.matching;
   put_choice(
@@ -243,6 +256,7 @@ StageOptions stage_options(const Settings& resolved, bool follow_steps) {
   put_describing(resolved, options);
   put_motion(resolved, options);
   put_odometry(resolved, options);
+  put_points(resolved, options);
   put_search(resolved, options);
   vo::keep_for(options.sampling.source, options.walk);
   if (follow_steps) options.walk.track_features = true;

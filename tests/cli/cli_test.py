@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import statistics
 import time
 import unittest
 
@@ -18,7 +19,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from support.retrace_cli import RETRACE, SOURCE, check, draw_walk, read_json, rows, run, street, video, write_truth  # noqa: E402
 
 MATCH_COLUMNS = ["query_frame", "query_time_s", "traverse", "reference_frame", "reference_time_s",
-                 "reference_distance_m", "score", "accepted", "probability", "sd_keyframes", "sd_m"]
+                 "reference_distance_m", "score", "accepted", "probability", "sd_keyframes", "sd_m", "yaw_deg", "lateral_m",
+                 "ahead_m"]
 
 
 def positions(speeds):
@@ -579,6 +581,50 @@ class CliTest(unittest.TestCase):
                 (("odometry", self.walks.query, "-o", self.folder / "odometry"), ("--step-signal", "bounce", "--min-step-deg", "1"),
                  "min-step-deg: has no effect: step-signal is bounce")):
             self.refused(*command, *options, says=says)
+
+    def test_looks_again_at_places_by_their_points(self):
+        def drawn(name, *options):
+            check("simulate", "-o", self.folder / name, "--length-m", "14", "--seed", "7", *options)
+            return self.folder / name / "walk.mp4", rows(self.folder / name / "truth.csv")
+
+        reference, _ = drawn("reference")
+        query, truth = drawn("query", "--gait-seed", "2", "--lateral-m", "0.5", "--camera-yaw-deg", "10")
+        route = self.folder / "points.db"
+        check("build", reference, "-o", route, "--truth", self.folder / "reference" / "truth.csv",
+              "--view-points", "true", "--fov-deg", "64.4")
+        out = {}
+        for name, options in (("unseen", ()), ("seen", ("--verify", "7", "--threads", "1")),
+                              ("again", ("--verify", "7", "--threads", "2"))):
+            out[name] = self.folder / name
+            check("localise", query, "--route", route, "-o", out[name], *options)
+        self.assertEqual((out["seen"] / "matches.csv").read_bytes(), (out["again"] / "matches.csv").read_bytes())
+        found, unseen = rows(out["seen"] / "matches.csv"), rows(out["unseen"] / "matches.csv")
+        for before, after in zip(unseen, found, strict=True):
+            self.assertEqual([before[name] for name in MATCH_COLUMNS[:-3]], [after[name] for name in MATCH_COLUMNS[:-3]])
+            self.assertEqual({before[name] for name in MATCH_COLUMNS[-3:]}, {""})
+        aside = [float(row["lateral_m"]) for row in found if row["lateral_m"]]
+        turned = [float(row["yaw_deg"]) for row in found if row["yaw_deg"]]
+        self.assertGreater(len(aside), len(found) / 3)
+        self.assertGreater(len(turned), len(found) / 2)
+        self.assertLess(abs(statistics.median(aside) - 0.5), 0.2)
+        self.assertLess(abs(statistics.median(turned) - 10), 3)  # both walkers' trunks swing by some 2 degrees
+
+        def off(run):
+            """Of the corrected trajectory, metres."""
+            return statistics.median(math.hypot(float(row["x_m"]) - float(truth[int(row["query_frame"])]["x_m"]),
+                                                float(row["y_m"]) - float(truth[int(row["query_frame"])]["y_m"]))
+                                     for row in rows(run / "trajectory.csv"))
+        self.assertLess(off(out["seen"]), 0.5 * off(out["unseen"]))
+        # The matches say it all: corrected from the files, it is the same trajectory.
+        before = (out["seen"] / "trajectory.csv").read_text()
+        check("correct", out["seen"], "--route", route)
+        self.assertLess(abs(off(out["seen"]) - off(out["again"])), 0.02)
+        self.assertEqual(len((out["seen"] / "trajectory.csv").read_text().splitlines()), len(before.splitlines()))
+
+        self.refused("localise", query, "--route", self.walks.route, "-o", self.folder / "run", "--verify", "3",
+                     says="verify: is 3 and the route keeps no points of its keyframes; expected 0, or a route built with")
+        self.refused("localise", query, "--route", route, "-o", self.folder / "run", "--view-points", "false",
+                     says="view-points: is false and the route was built with true")
 
     def test_the_default_configuration_is_current(self):
         self.assertEqual((SOURCE / "configs" / "default.toml").read_text(), check("config"))

@@ -20,6 +20,7 @@ struct Settings {
   std::optional<int> patch_px;
   std::optional<std::string> patch_shape;
   std::optional<double> patch_min_contrast;
+  std::optional<bool> view_points;
 
   // Describing
   std::optional<std::string> descriptor, descriptor_file, descriptor_metric;
@@ -59,6 +60,7 @@ struct Settings {
   std::optional<std::string> score;
   std::optional<double> accept_score, accept_probability;
   std::optional<bool> fuse_traverses;
+  std::optional<int> verify;
   std::optional<bool> correct_drift;
 
   // General

@@ -21,6 +21,7 @@ struct StageOptions {
   vo::ExternalTrajectoryOptions motion_file_fit;  ///< how it is matched to frames
   WalkSamplingOptions sampling;
   RouteMatchingOptions matching;
+  int verify = 0;  ///< reference keyframes about a match to look at again (`verify_matches`)
 };
 
 /// `resolved`: from `resolve`. `follow_steps`: points are tracked even if the motion does not need them.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 namespace place {
 namespace {
 
+constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr const char* kNumber = "a finite number";
 constexpr const char* kIndex = "a whole number, 0 or greater";
 
@@ -101,6 +103,29 @@ constexpr std::array kColumns{
         "sd_m", [](const Match& m) { return cell_of(m.sd_m); },
         [](Match& m, std::string_view cell) { return cell.empty() || read_number(cell, m.sd_m.emplace()); },
         kNumber, false},
+    Column{"yaw_deg",
+           [](const Match& m) {
+             return m.yaw_rad ? fmt::format("{:.2f}", *m.yaw_rad * kDegrees) : std::string();
+           },
+           [](Match& m, std::string_view cell) {
+             if (cell.empty()) return true;
+             const bool read = read_number(cell, m.yaw_rad.emplace());
+             *m.yaw_rad /= kDegrees;
+             return read;
+           },
+           kNumber, false},
+    Column{"lateral_m",
+           [](const Match& m) { return m.lateral_m ? fmt::format("{:.3f}", *m.lateral_m) : std::string(); },
+           [](Match& m, std::string_view cell) {
+             return cell.empty() || read_number(cell, m.lateral_m.emplace());
+           },
+           kNumber, false},
+    Column{"ahead_m",
+           [](const Match& m) { return m.ahead_m ? fmt::format("{:.3f}", *m.ahead_m) : std::string(); },
+           [](Match& m, std::string_view cell) {
+             return cell.empty() || read_number(cell, m.ahead_m.emplace());
+           },
+           kNumber, false},
 };
 
 }  // namespace

@@ -19,6 +19,11 @@ std::vector<std::size_t> gaps_of(const Traverse& traverse) {
   return gaps;
 }
 
+bool has_view_points(const Route& route) {
+  return std::ranges::any_of(route.traverses,
+                             [](const Traverse& traverse) { return !traverse.view_points.empty(); });
+}
+
 bool has_poses(const Route& route) {
   return std::ranges::any_of(route.traverses, [](const Traverse& traverse) {
     return std::ranges::any_of(traverse.keyframes,

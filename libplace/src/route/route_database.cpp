@@ -64,6 +64,13 @@ CREATE TABLE preview(
   PRIMARY KEY(traverse, position));
 )sql";
 
+// Only where points were kept: other routes are as if there were none, and older ones have no such table.
+constexpr const char* kPointsSchema = R"sql(
+CREATE TABLE view_points(
+  traverse INTEGER NOT NULL REFERENCES traverse, position INTEGER NOT NULL, checksum INTEGER NOT NULL,
+  bytes BLOB NOT NULL, PRIMARY KEY(traverse, position));
+)sql";
+
 void check(const Route& route) {
   std::set<std::string> names;
   for (const Traverse& traverse : route.traverses) {
@@ -79,6 +86,8 @@ void check(const Route& route) {
       throw std::invalid_argument(
           "write_route: a traverse's descriptors do not fit its keyframes or the other traverses'");
     }
+    if (!traverse.view_points.empty() && traverse.view_points.size() != traverse.keyframes.size())
+      throw std::invalid_argument("write_route: points of every keyframe or of none expected");
   }
 }
 
@@ -94,6 +103,33 @@ Settings read_settings(Statement& rows, const std::string& path) {
     }
   }
   return settings;
+}
+
+void write_points(const Database& database, std::int64_t id, const std::vector<Bytes>& points) {
+  if (points.empty()) return;
+  Statement row = database.prepare("INSERT INTO view_points VALUES(?,?,?,?)");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::span<const std::uint8_t> bytes = points[i];
+    row.bind(id).bind(static_cast<std::int64_t>(i)).bind(checksum(bytes)).bind(bytes).execute();
+  }
+}
+
+std::vector<Bytes> read_points(const Database& database, const std::string& path, std::int64_t id,
+                               std::size_t keyframes) {
+  std::vector<Bytes> points;
+  Statement table = database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'view_points'");
+  if (!table.step()) return points;
+  Statement row =
+      database.prepare("SELECT checksum, bytes FROM view_points WHERE traverse = ? ORDER BY position");
+  row.bind(id);
+  while (row.step()) {
+    const std::int64_t expected = row.integer();
+    const std::span<const std::uint8_t> bytes = row.blob();
+    if (checksum(bytes) != expected) damaged(path, "the points of a keyframe do not fit their checksum");
+    points.emplace_back(bytes.begin(), bytes.end());
+  }
+  if (!points.empty() && points.size() != keyframes) damaged(path, "points of keyframes are missing");
+  return points;
 }
 
 void write_traverse(const Database& database, std::int64_t id, const Traverse& traverse) {
@@ -131,6 +167,7 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
     if (!k.preview_jpeg.empty()) preview.bind(id).bind(position).bind(std::span(k.preview_jpeg)).execute();
   }
 
+  write_points(database, id, traverse.view_points);
   Statement thumbnails = database.prepare("INSERT INTO thumbnail_chunk VALUES(?,?,?,?)");
   write_chunks(thumbnails, traverse.thumbnails.pixels, traverse.thumbnails.image_size(),
                traverse.thumbnails.size(), [&](Statement& chunk) { chunk.bind(id); });
@@ -199,6 +236,8 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
       traverse.keyframes[static_cast<std::size_t>(position)].preview_jpeg.assign(jpeg.begin(), jpeg.end());
     }
   }
+
+  if (options.view_points) traverse.view_points = read_points(database, path, id, traverse.keyframes.size());
 
   if (options.previews && width > 0) {
     traverse.thumbnails =
@@ -297,6 +336,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
                              kRouteSchemaVersion));
     database.run("BEGIN");
     database.run(kSchema);
+    if (has_view_points(route)) database.run(kPointsSchema);
     database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?)")
         .bind(std::string_view(kVersion))
         .bind(route.unit)

@@ -72,10 +72,21 @@ KeyframeRecords records_of(const vo::Walk& walk, const SampledWalk& sampled, con
       .frames = sampled.frames, .time_s = {}, .thumbnails = sampled.thumbnails, .records = {}};
   for (const std::size_t frame : sampled.frames) keyframes.time_s.push_back(walk.time_s[frame]);
   if (!descriptors[index]->traits().records_frames) return keyframes;
-  if (walk.records.size() != descriptors.size())
+  if (walk.records.size() < descriptors.size())
     throw std::invalid_argument("sample_walk: a walk read with the descriptors' recorders expected");
   for (const std::size_t frame : sampled.frames) keyframes.records.push_back(walk.records[index][frame]);
   return keyframes;
+}
+
+/// The points kept of the keyframes.
+std::vector<Bytes> points_of(const vo::Walk& walk, const std::vector<std::size_t>& frames,
+                             const std::optional<std::size_t>& record) {
+  std::vector<Bytes> points;
+  if (!record) return points;
+  if (*record >= walk.records.size())
+    throw std::invalid_argument("sample_walk: a walk read with its points recorded expected");
+  for (const std::size_t frame : frames) points.push_back(walk.records[*record][frame]);
+  return points;
 }
 
 /// Takes frames as keyframes and describes them. `route`: with traverses, or null.
@@ -104,9 +115,8 @@ RelativeScale scale_to(const Traverse& reference, const SampledWalk& sampled, co
                         {.method = Enhancement::kStandardise, .prior_queries = traits.prior_queries});
 }
 
-}  // namespace
-
-SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options, const Route* route) {
+/// `sample_walk` without its points.
+SampledWalk described_walk(const vo::Walk& walk, const WalkSamplingOptions& options, const Route* route) {
   SampledWalk sampled;
   const std::shared_ptr<const DescriptorSet> descriptors = descriptors_of(options);
   const Route* const on = route != nullptr && !route->traverses.empty() ? route : nullptr;
@@ -152,6 +162,14 @@ SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options
   return sampled;
 }
 
+}  // namespace
+
+SampledWalk sample_walk(const vo::Walk& walk, const WalkSamplingOptions& options, const Route* route) {
+  SampledWalk sampled = described_walk(walk, options, route);
+  sampled.view_points = points_of(walk, sampled.frames, options.points_record);
+  return sampled;
+}
+
 Traverse make_traverse(const std::string& name, const vo::Walk& walk, const SampledWalk& sampled,
                        const std::optional<Survey>& survey) {
   if (survey && (survey->pose.size() != walk.frames() || survey->distance_m.size() != walk.frames())) {
@@ -167,6 +185,7 @@ Traverse make_traverse(const std::string& name, const vo::Walk& walk, const Samp
   if (survey) traverse.pose_source = survey->source;
   if (survey) traverse.surveyed = survey->surveyed;
   traverse.descriptors = sampled.descriptors;
+  traverse.view_points = sampled.view_points;
   const auto are_thumbnails = [](const Descriptors& made) {
     return std::holds_alternative<vo::ImageStack>(made);
   };

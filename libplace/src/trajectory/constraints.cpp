@@ -57,7 +57,10 @@ std::vector<Constraint> constraints_of(std::span<const PoseFix> fixes, std::span
                                        const DriftCorrectionOptions& options) {
   std::vector<Constraint> constraints;
   for (const PoseFix& fix : fixes)
-    constraints.push_back({.node = fix.node, .pose = fix.pose, .sigma_m = match_sd_m(fix, options)});
+    constraints.push_back({.node = fix.node,
+                           .pose = fix.pose,
+                           .sigma_m = match_sd_m(fix, options),
+                           .aside_m = fix.aside_sd_m.value_or(options.aside_m)});
   share_information(constraints, travelled_m, options);
   return constraints;
 }
@@ -67,8 +70,10 @@ std::vector<Constraint> constraints_of(std::span<const LoopClosure> loops,
                                        const DriftCorrectionOptions& options) {
   std::vector<Constraint> constraints;
   for (const LoopClosure& loop : loops)
-    constraints.push_back(
-        {.node = loop.node, .earlier = loop.earlier, .sigma_m = match_sd_m(loop.score, options)});
+    constraints.push_back({.node = loop.node,
+                           .earlier = loop.earlier,
+                           .sigma_m = match_sd_m(loop.score, options),
+                           .aside_m = options.aside_m});
   share_information(constraints, travelled_m, options);
   return constraints;
 }

@@ -36,6 +36,7 @@ struct FixedLagCorrector::Window {
     graph.fixes.push_back({.node = odometry.size() - 1,
                            .pose = fix->pose,
                            .sigma_m = match_sd_m(*fix, options.drift),
+                           .aside_m = fix->aside_sd_m.value_or(options.drift.aside_m),
                            .share = std::max(share, 1e-3)});
     if (!placed) fixes.push_back({.node = odometry.size() - 1, .pose = fix->pose, .score = fix->score});
   }

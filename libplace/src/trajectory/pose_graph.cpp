@@ -61,7 +61,7 @@ class Problem {
     set_weights(graph);
     const double* factor = factors_.data();
     for (const Constraint& fix : graph.fixes) {
-      const PlaceError place{fix.sigma_m, options.aside_m, factor};
+      const PlaceError place{fix.sigma_m, fix.aside_m, factor};
       problem_.AddResidualBlock(cost<FixError, 2, kCount>({place, fix.pose}), nullptr, block(fix.node));
       problem_.AddResidualBlock(
           cost<HeadingError, 1, kCount>({options.match_heading_rad, factor, fix.pose.heading_rad}),
@@ -69,7 +69,7 @@ class Problem {
       ++factor;
     }
     for (const Constraint& loop : graph.loops) {
-      const PlaceError place{loop.sigma_m, options.aside_m, factor};
+      const PlaceError place{loop.sigma_m, loop.aside_m, factor};
       problem_.AddResidualBlock(cost<LoopError, 2, kCount, kCount>({place}), nullptr, block(loop.earlier),
                                 block(loop.node));
       problem_.AddResidualBlock(cost<HeadingError, 1, kCount, kCount>({options.match_heading_rad, factor}),
@@ -130,18 +130,18 @@ class Problem {
 };
 
 /// Squared error of each constraint in its variances: fixes, then loops.
-std::vector<double> squared_errors(const Graph& graph, const DriftCorrectionOptions& options) {
+std::vector<double> squared_errors(const Graph& graph) {
   std::vector<double> all;
   constexpr double kOne = 1;
   std::array<double, 2> r{};
   const auto push = [&] { all.push_back(r[0] * r[0] + r[1] * r[1]); };
   for (const Constraint& fix : graph.fixes) {
-    FixError{{fix.sigma_m, options.aside_m, &kOne}, fix.pose}(graph.states[fix.node].value.data(), r.data());
+    FixError{{fix.sigma_m, fix.aside_m, &kOne}, fix.pose}(graph.states[fix.node].value.data(), r.data());
     push();
   }
   for (const Constraint& loop : graph.loops) {
-    LoopError{{loop.sigma_m, options.aside_m, &kOne}}(graph.states[loop.earlier].value.data(),
-                                                      graph.states[loop.node].value.data(), r.data());
+    LoopError{{loop.sigma_m, loop.aside_m, &kOne}}(graph.states[loop.earlier].value.data(),
+                                                   graph.states[loop.node].value.data(), r.data());
     push();
   }
   return all;
@@ -150,7 +150,7 @@ std::vector<double> squared_errors(const Graph& graph, const DriftCorrectionOpti
 /// Geman and McClure's weights at one stage of non-convexity (Yang et al. 2020, Eq. 12); mu = 1 is their cost
 /// itself, a large mu nearly least squares. Returns the largest change.
 double reweight(Graph& graph, double mu, const DriftCorrectionOptions& options) {
-  const std::vector<double> errors = squared_errors(graph, options);
+  const std::vector<double> errors = squared_errors(graph);
   std::size_t i = 0;
   double change = 0;
   for (auto* constraints : {&graph.fixes, &graph.loops}) {
@@ -208,7 +208,7 @@ bool solve(Graph& graph, const DriftCorrectionOptions& options, double most_conv
   constexpr int kIterations = 6, kLastIterations = 30, kMostRounds = 5;
   constexpr double kTolerance = 1e-3, kLastTolerance = 1e-7, kSettled = 0.01;
   const std::vector<State> before = graph.states;
-  const std::vector<double> errors = squared_errors(graph, options);
+  const std::vector<double> errors = squared_errors(graph);
   const double worst = errors.empty() ? 0 : std::ranges::max(errors);
   Problem problem(graph, options);
   bool usable = true;

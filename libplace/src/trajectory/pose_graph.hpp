@@ -32,6 +32,7 @@ struct Constraint {
   std::size_t earlier = 0;  ///< for a loop, the earlier node at the same place; unused for a fix
   vo::Pose2 pose;           ///< of a fix
   double sigma_m = 1;       ///< along the path
+  double aside_m = 1;       ///< across it
   double share = 1;         ///< share of its information that its neighbours do not repeat
   double weight = 1;        ///< how much it is trusted, set by `solve`
 };

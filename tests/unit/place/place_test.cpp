@@ -69,6 +69,26 @@ TEST_F(PlaceTest, IsTheSameOnARouteReadBack) {
   for (std::size_t q = 0; q < one.matches.size(); ++q) EXPECT_EQ(one.matches[q].score, two.matches[q].score);
 }
 
+TEST_F(PlaceTest, SaysHowARouteIsBuiltThatCanBeLookedAtAgain) {
+  place::Route route = place::new_route(by_thumbnails());
+  place::add(route, "day", day_.walk);
+  Settings settings;
+  settings.verify = 5;
+  const auto said = [&](const auto& act) {
+    try {
+      act();
+    } catch (const vo::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string expected =
+      "verify: is 5 and the route keeps no points of its keyframes; expected 0, or a route built with "
+      "`retrace build --view-points true`";
+  EXPECT_EQ(said([&] { place::localise(route, night_.walk, settings); }), expected);
+  EXPECT_EQ(said([&] { place::read("none.mp4", route, settings); }), expected);  // before anything is read
+}
+
 TEST_F(PlaceTest, ARunsSettingsRepeatIt) {
   place::Route route = place::new_route(by_thumbnails());
   place::add(route, "day", day_.walk);

@@ -41,6 +41,30 @@ TEST(Resolve, FillsInEveryDefault) {
   EXPECT_FALSE(resolved.accept_score);  // only one of both is asked for
 }
 
+TEST(Resolve, PointsAreSeenThroughACamera) {
+  Settings points;
+  points.view_points = true;
+  points.fov_deg = 90;
+  EXPECT_EQ(place::resolve(points, kRoute).fov_deg, 90);
+  EXPECT_FALSE(place::resolve(points, {.purpose = Purpose::kOdometry}).view_points);
+  const Settings route = route_of(points);
+  EXPECT_EQ(route.view_points, true);
+
+  Settings query;
+  EXPECT_EQ(place::resolve(query, {.route = &route}).verify, 0);
+  EXPECT_FALSE(place::resolve(query, {.route = &route}).fov_deg);  // nobody looks again
+  EXPECT_TRUE(place::stage_options(place::resolve(query, {.route = &route})).walk.recorders.size() == 1);
+  query.verify = 5;
+  EXPECT_EQ(place::resolve(query, {.route = &route}).fov_deg, 90);
+  const place::StageOptions stages = place::stage_options(place::resolve(query, {.route = &route}));
+  EXPECT_EQ(stages.verify, 5);
+  EXPECT_EQ(stages.sampling.points_record, 1U);
+  EXPECT_EQ(stages.walk.recorders.size(), 2U);
+  EXPECT_EQ(place::stage_options(place::resolve(points, kRoute)).walk.recorders.size(), 2U);
+  query.view_points = false;
+  EXPECT_THROW(place::resolve(query, {.route = &route}), vo::Error);
+}
+
 TEST(Resolve, AgainChangesNothing) {
   std::vector<Settings> all(8);
   all[1].motion = "steps";

@@ -41,8 +41,9 @@ TEST(SettingsTable, HasEveryNameAndFieldOnce) {
     const std::string choice(setting.choices.substr(0, setting.choices.find('|')));
     const bool number = setting.most > setting.least;
     const std::string any =
-        !choice.empty()              ? choice
-        : setting.standard == "true" ? "false"
+        !choice.empty()               ? choice
+        : setting.standard == "true"  ? "false"
+        : setting.standard == "false" ? "true"
         : number ? std::to_string(static_cast<int>(std::min(setting.most, std::max(1.0, setting.least))))
                  : "text";
     place::set(settings, setting, any);

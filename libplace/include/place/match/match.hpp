@@ -28,8 +28,12 @@ struct Match {
   std::optional<double> probability;
   std::optional<double> sd_keyframes;  ///< standard deviation of the place, in keyframes of the traverse
   std::optional<double> sd_m;          ///< the same in metres along the route, where surveyed
-  bool accepted = false;               ///< meets the acceptance settings
-  bool partial = false;                ///< found on only a part of its line, at an end of either walk
+  /// How far the camera is turned to the right of the reference's; none if the points do not say.
+  std::optional<double> yaw_rad;
+  std::optional<double> lateral_m;  ///< right of the reference's path; none as above, or without metres
+  std::optional<double> ahead_m;    ///< of the matched keyframe, along its heading; none as above
+  bool accepted = false;            ///< meets the acceptance settings
+  bool partial = false;             ///< found on only a part of its line, at an end of either walk
 };
 
 }  // namespace place

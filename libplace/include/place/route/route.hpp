@@ -40,6 +40,8 @@ struct Traverse {
   std::vector<Descriptors> descriptors;  ///< for each of the route's descriptors, one per keyframe
   /// One for each keyframe, if previews are kept; empty otherwise, or where they are the descriptors.
   vo::ImageStack thumbnails;
+  /// SURF points of each keyframe (`vo::pack_view_points`); empty if they were not kept, or not read.
+  std::vector<Bytes> view_points;
   Settings settings;  ///< resolved settings that shaped it
 };
 
@@ -66,6 +68,9 @@ const vo::ImageStack* thumbnails_of(const Traverse& traverse);
 
 /// The keyframes of a traverse before which its recording was interrupted: no sequence crosses one.
 std::vector<std::size_t> gaps_of(const Traverse& traverse);
+
+/// True if any traverse has SURF points to check a query against.
+bool has_view_points(const Route& route);
 
 /// True if any keyframe has a pose to place a query with.
 bool has_poses(const Route& route);

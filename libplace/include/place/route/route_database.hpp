@@ -11,7 +11,8 @@ inline constexpr int kRouteSchemaVersion = 5;
 
 /// What to read.
 struct RouteReadOptions {
-  bool previews = true;  ///< read the pictures and thumbnails too
+  bool previews = true;     ///< read the pictures and thumbnails too
+  bool view_points = true;  ///< and the SURF points, where there are any
 };
 
 /// Reads a route database: one SQLite file, opened read-only. Descriptors are stored in chunks of 256, each

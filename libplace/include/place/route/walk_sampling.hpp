@@ -27,6 +27,9 @@ struct WalkSamplingOptions {
   /// What keyframes are described with; null: thumbnails, with the motion's patches.
   std::shared_ptr<const DescriptorSet> descriptors;
   std::optional<int> max_shift_px;  ///< see `descriptor_costs`
+  /// Which of the walk's records are its frames' SURF points (`vo::pack_view_points`); none: they were not
+  /// kept.
+  std::optional<std::size_t> points_record;
   RelativeScaleOptions relative_scale;
   /// The same if both walks are in metres, from steps: their lengths differ by a tenth or two where speeds
   /// differ by half.
@@ -41,6 +44,7 @@ struct SampledWalk {
   vo::ImageStack thumbnails;  ///< of the keyframes
   std::vector<Descriptors> descriptors;  ///< of the keyframes, for each of the descriptors
   std::vector<Bytes> learned;            ///< used by the descriptors: the route's, or from this walk
+  std::vector<Bytes> view_points;        ///< of the keyframes (`vo::pack_view_points`); empty if not kept
   vo::MotionModel motion_model;          ///< of alignment error, learned on the walk; empty without
   bool metric = false;                   ///< the displacement was in metres
   vo::Trajectory trajectory;  ///< by that motion, at every frame; empty unless metres and headings are known

@@ -21,6 +21,7 @@ struct PoseFix {
   /// The probability that the match is right, and its standard deviation along the path if so, metres. With a
   /// probability, the score is ignored.
   std::optional<double> probability, sd_m;
+  std::optional<double> aside_sd_m;  ///< standard deviation across the path; none: `aside_m` of the options
 };
 
 /// The same place seen twice in one walk.

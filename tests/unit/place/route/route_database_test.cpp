@@ -165,6 +165,36 @@ TEST(RouteDatabase, LeavesPreviewsOutWhereTheyAreNotWanted) {
   expect_equal(place::read_route(folder / "r.db", {.previews = false}), route);
 }
 
+TEST(RouteDatabase, KeepsPointsWhereThereAreAny) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  place::write_route(folder / "r.db", route);
+  const auto without = fs::file_size(folder / "r.db");
+  EXPECT_FALSE(place::has_view_points(place::read_route(folder / "r.db")));  // nor a table for them
+  for (std::size_t i = 0; i < 256; ++i)  // of the second traverse only, now and then none
+    route.traverses[1].view_points.emplace_back(37 * (i % 3), static_cast<std::uint8_t>(i));
+  place::write_route(folder / "r.db", route);
+  const place::Route back = place::read_route(folder / "r.db");
+  EXPECT_TRUE(place::has_view_points(back));
+  for (std::size_t i = 0; i < route.traverses.size(); ++i)
+    EXPECT_EQ(back.traverses[i].view_points, route.traverses[i].view_points) << i;
+  EXPECT_FALSE(place::has_view_points(place::read_route(folder / "r.db", {.view_points = false})));
+  EXPECT_GE(fs::file_size(folder / "r.db"), without + 256 * 37);
+
+  const auto damage = [&](const char* sql) {
+    place::write_route(folder / "r.db", route);
+    place::sqlite::Database(folder / "r.db", place::sqlite::Database::Mode::kCreate, "r.db").run(sql);
+  };
+  damage("UPDATE view_points SET bytes = x'00' WHERE position = 1");
+  EXPECT_THROW_WITH(place::read_route(folder / "r.db"), vo::Error,
+                    "r.db: is damaged: the points of a keyframe do not fit their checksum");
+  damage("DELETE FROM view_points WHERE position = 1");
+  EXPECT_THROW_WITH(place::read_route(folder / "r.db"), vo::Error,
+                    "r.db: is damaged: points of keyframes are missing");
+  route.traverses[1].view_points.pop_back();
+  EXPECT_THROW(place::write_route(folder / "r.db", route), std::invalid_argument);
+}
+
 TEST(RouteDatabase, EqualRoutesGiveEqualBytes) {
   const TemporaryFolder folder;
   place::write_route(folder / "a.db", example_route());

@@ -48,6 +48,20 @@ TEST(PoseFixes, AreSurveyedIfAnyIs) {
   EXPECT_EQ(sure.fixes[0].sd_m, 0.4);
   EXPECT_EQ(sure.fixes[1].probability, std::nullopt);
 
+  // Seen beside and ahead of where the reference walked, which heads north.
+  EXPECT_EQ(sure.fixes[1].aside_sd_m, std::nullopt);
+  for (const std::size_t i : {1, 4, 5}) matches[i].lateral_m = -0.5;
+  matches[4].ahead_m = 0.25;
+  matches.push_back(match_on("survey", 9));
+  const auto seen = place::pose_fixes(route, matches);
+  ASSERT_THAT(seen.fixes, SizeIs(4));
+  EXPECT_EQ(seen.fixes[0].pose.x_m, 1.5);
+  EXPECT_EQ(seen.fixes[0].pose.y_m, 0);
+  EXPECT_EQ(seen.fixes[1].pose.y_m, 0.25);
+  EXPECT_LT(seen.fixes[0].aside_sd_m.value(), place::DriftCorrectionOptions{}.aside_m);
+  EXPECT_EQ(seen.fixes[3].pose.x_m, 9);
+  EXPECT_GT(seen.fixes[3].aside_sd_m.value(), place::DriftCorrectionOptions{}.aside_m);  // it was not seen
+
   // Two walks' odometry have nothing in common: the one with more.
   const auto own = place::pose_fixes(
       route, {match_on("own again", 1), match_on("own odometry", 2), match_on("own odometry", 3)});
