@@ -8,10 +8,10 @@ import pathlib
 import re
 import shutil
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
-import statistics
 import time
 import unittest
 
