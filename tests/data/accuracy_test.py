@@ -74,6 +74,24 @@ class AccuracyTest(unittest.TestCase):
         self.reaches(walks / "autumn", walks / "winter", ("--pairs", walks / "pairs.csv", "--tolerance-frames", 1), VANILLA,
                      {1: 0.85, 5: 0.99, 10: 1})
 
+    def test_the_park_s_camera_is_turned_as_seen_by_hand(self):
+        walks = DATA / "stromovka"
+        out = self.folder / "run"
+        check("localise", walks / "winter", "--route", self.route(walks / "autumn", *VANILLA, "--view-points", "true"),
+              "-o", out, "--force", "--verify", 7)
+        by_hand = {int(row["frame"]): float(row["offset_px"]) for row in rows(walks / "winter_offset_px.csv")}
+        focal_px = 640 / 2 / math.tan(math.radians(64.4 / 2))  # of the field of view that is taken by default
+        found = rows(out / "matches.csv")
+        # What moves to the right in the picture does so as the camera turns to the left. Unsaid is as far off as can be.
+        off_px = [abs(-focal_px * math.tan(math.radians(float(row["yaw_deg"]))) - by_hand[int(row["query_frame"])])
+                  if row["yaw_deg"] else math.inf for row in found]
+        said = [off for off in off_px if off < math.inf]
+        print(f"\n  median offset {statistics.median(off_px):.1f} px of all {len(off_px)}, {statistics.median(said):.1f} px of the "
+              f"{len(said)} that say it", end=" ", flush=True)
+        self.assertGreaterEqual(len(said), 0.5 * len(found))
+        self.assertLessEqual(statistics.median(off_px), 20)
+        self.assertEqual({row["lateral_m"] for row in found}, {""})  # nobody knows metres
+
     def test_corridor(self):
         walks = DATA / "corridor"
         self.reaches(walks / "reference", walks / "query", ("--pairs", walks / "pairs.csv", "--tolerance-frames", 2), VANILLA,
