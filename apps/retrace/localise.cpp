@@ -52,7 +52,9 @@ void localise(const LocaliseOptions& options) {
       place::read_route(options.route, {.view_points = options.settings.verify.value_or(0) > 0});
   if (route.traverses.empty())
     throw vo::Error(options.route, "has no traverse", "a route built by `retrace build`");
-  place::resolve(options.settings, {.route = &route.settings, .route_has_poses = place::has_poses(route)});
+  place::resolve(options.settings, {.route = &route.settings,
+                                    .route_has_poses = place::has_poses(route),
+                                    .route_has_points = place::has_view_points(route)});
   prepare_run_directory(options.output, kRunFiles, options.common.force);
 
   vo::Walk walk;

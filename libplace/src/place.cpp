@@ -17,7 +17,10 @@ namespace place {
 namespace {
 
 ResolveContext on(const Route& route, Purpose purpose) {
-  return {.purpose = purpose, .route = &route.settings, .route_has_poses = has_poses(route)};
+  return {.purpose = purpose,
+          .route = &route.settings,
+          .route_has_poses = has_poses(route),
+          .route_has_points = has_view_points(route)};
 }
 
 vo::Walk read_as(std::span<const std::string> sources, const StageOptions& options,
@@ -39,14 +42,6 @@ void check_read_with(const StageOptions& options, const vo::Walk& walk) {
       options.walk.recorders.empty() || walk.records.size() == options.walk.recorders.size();
   if (!same_size || !tracked || !recorded)
     throw std::invalid_argument("a walk read with the route's settings expected: place::read");
-}
-
-/// A route without points cannot be looked at again.
-void check_points(const Route& route, const StageOptions& options) {
-  if (options.verify == 0 || has_view_points(route)) return;
-  throw vo::Error("verify",
-                  fmt::format("is {} and the route keeps no points of its keyframes", options.verify),
-                  "0, or a route built with `retrace build --view-points true`");
 }
 
 /// The walk's odometry at its keyframes; none, with the reason, if it has none.
@@ -120,7 +115,6 @@ vo::Walk read(std::span<const std::string> sources, const Route& route, const Se
   const ResolveContext context = on(route, Purpose::kLocalise);
   const Settings resolved = resolve(settings, context);
   const StageOptions options = stage_options(resolved, follows_steps(resolved, context));
-  check_points(route, options);
   return read_as(sources, options, progress);
 }
 
@@ -161,7 +155,6 @@ Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
   Run run;
   run.settings = resolve(settings, context);
   const StageOptions options = stage_options(run.settings, follows_steps(run.settings, context));
-  check_points(route, options);
   check_read_with(options, walk);
   run.sampled = sample_walk(walk, options.sampling, &route);
   RouteMatches found = match_on_route(route, walk.time_s, run.sampled, options.matching, callback);

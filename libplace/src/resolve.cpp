@@ -140,6 +140,11 @@ Settings resolve(const Settings& given, const ResolveContext& context) {
   const bool by_score = settings.compat && !is(settings.compat, "none");
   if (by_score && !settings.accept_score) settings.accept_score = kAcceptOriginalScore;
   check_together(settings);
+  if (settings.verify.value_or(0) > 0 && !context.route_has_points) {
+    throw vo::Error("verify",
+                    fmt::format("is {} and the route keeps no points of its keyframes", *settings.verify),
+                    "0, or a route built with `retrace build --view-points true`");
+  }
   return settings;
 }
 

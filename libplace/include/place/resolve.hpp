@@ -16,6 +16,7 @@ struct ResolveContext {
   Purpose purpose = Purpose::kLocalise;
   const Settings* route = nullptr;  ///< of the route that the walk is on; null for a new route or none
   bool route_has_poses = false;     ///< then a query's steps are tracked, to correct their drift
+  bool route_has_points = true;     ///< without them `verify` is refused
   bool pass_over = false;  ///< drop settings without effect, not refuse them: for the cells of a sweep
 };
 
@@ -33,6 +34,7 @@ struct ResolveContext {
 ///   be metric, unless only `spacing-m` was given.
 /// - `accept-score` is 0.1 with `compat`; otherwise it has no value unless given, and `accept-probability`
 ///   counts.
+/// - `verify` needs a route that keeps points of its keyframes.
 /// - `v-min` and `v-max` come together, v-min <= v-max; `motion file` needs `motion-file`; `score ratio`
 /// needs whole lines, `min-fraction 1`; `max-shift-px` is
 ///   less than half of the thumbnail's width.
