@@ -73,7 +73,7 @@ bool is_live(const std::string& walk) {
 
 void follow(const FollowOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
-  const place::Route route = place::read_route(options.route);
+  const place::Route route = place::read_route(options.route, {.view_points = false});
   place::Follower follower(route, options.settings, {.lag_s = options.lag_s});
   place::Announcer announcer(route);
   if (!options.output.empty()) prepare_run_directory(options.output, {"follow.jsonl"}, options.common.force);
@@ -129,7 +129,7 @@ std::function<void()> declare_follow(Arguments& arguments) {
   arguments.flag("--announce", options->announce,
                  "events as lines of their own: found, left_route, back_on_route, turn_ahead, end_of_route");
   using enum place::SettingGroup;
-  arguments.settings(options->settings, {kReading, kGeneral}, {"preview-width-px"});
+  arguments.settings(options->settings, {kReading, kGeneral}, {"preview-width-px", "view-points"});
   arguments.force(options->common);
   arguments.footer(
       "Prints one JSON object for each frame: frame, time_s, state (searching, on_route, off_route), and on "

@@ -95,7 +95,7 @@ std::function<void()> declare_sweep(Arguments& arguments) {
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral},
                      {"motion", "sequence-length", "search-range-rad", "compat", "sequence-length-m",
-                      "motion-file", "motion-file-start-s", "motion-file-gap-s"});
+                      "motion-file", "motion-file-start-s", "motion-file-gap-s", "view-points", "verify"});
   arguments.common(options->common);
   arguments.footer(
       "Both walks are read once; a cost matrix is computed once for all cells that share it. With --motion "

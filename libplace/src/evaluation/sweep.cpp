@@ -115,6 +115,8 @@ class Sweep {
   [[nodiscard]] Settings settings(const SweepCell& cell) const {
     Settings given = settings_at(input_.settings, axes_, cell);
     if (given.motion == "none" && every_ > 0) given.every = every_;
+    given.view_points.reset();  // a sweep asks where places were found only
+    given.verify.reset();
     const Settings resolved = resolve(given, {.pass_over = true});
     for (const Setting& setting : settings_table())
       if (!text_of(resolved, setting)) reset(given, setting);
