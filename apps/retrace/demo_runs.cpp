@@ -36,7 +36,7 @@ vo::ProgressCallback or_interrupted(ProgressBar& bar) {
 
 /// The first frame of the video at which the walker had covered this distance.
 cv::Mat view_at(const DrawnWalk& drawn, double distance_m) {
-  const std::vector<double> along = vo::read_truth(drawn.truth()).distance_m;
+  const std::vector<double> along = place::distances_on(drawn.truth());
   const auto index = std::ranges::lower_bound(along, distance_m) - along.begin();
   const auto source = vo::open_frame_source(drawn.video(), {.colour_width_px = kOverviewTile_px});
   std::optional<vo::Frame> frame = source->next();

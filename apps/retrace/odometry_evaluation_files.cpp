@@ -55,8 +55,9 @@ WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& 
   } else {
     if (map_scale_m_per_px)
       throw vo::Error(path, "has no column 'x_px'", "a way on a map, with --map-scale-m-per-px");
-    truth.walk = vo::read_truth(path);
-    if (!truth.walk.steps.empty()) truth.steps = static_cast<std::size_t>(truth.walk.steps.back());
+    const vo::WalkTruth walk = vo::read_truth(path);
+    truth.walk = vo::poses_on_the_way(walk);
+    if (const auto steps = vo::steps_in_all(walk)) truth.steps = static_cast<std::size_t>(*steps);
   }
   if (counted_steps) truth.steps = counted_steps;
   return truth;

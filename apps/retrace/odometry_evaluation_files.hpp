@@ -16,7 +16,7 @@ namespace retrace {
 /// The truth of a walk: poses with times, or else its path drawn on a map, in metres.
 struct WalkTruth {
   std::optional<std::size_t> steps;
-  vo::WalkTruth walk;
+  vo::PosesOnTheWay walk;
   std::vector<place::WayPoint> way;
 };
 

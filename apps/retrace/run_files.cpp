@@ -16,6 +16,7 @@
 #include <spdlog/spdlog.h>
 
 #include <place/match/match_io.hpp>
+#include <place/match/walk_gaps.hpp>
 #include <place/route/geographic.hpp>
 #include <place/version.hpp>
 #include <vo/io/atomic_file.hpp>
@@ -75,10 +76,14 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
   }
   std::vector<std::string> warnings = walk.warnings;
   warnings.insert(warnings.end(), run.sampled.warnings.begin(), run.sampled.warnings.end());
+  std::vector<std::size_t> gaps;
+  for (const std::size_t keyframe : place::gaps_at(run.sampled.frames, walk.time_s))
+    gaps.push_back(run.sampled.frames[keyframe]);
   ordered_json json{{"query", walk.source},
                     {"query_frames", walk.frames()},
                     {"query_start_utc_s", walk.start_utc_s ? ordered_json(*walk.start_utc_s) : nullptr},
                     {"query_duration_s", walk.time_s.back()},
+                    {"query_frames_after_gaps", gaps},
                     {"route", route_path},
                     {"traverses", ordered_json::array()},
                     {"queries", run.matches.size()},

@@ -23,7 +23,7 @@ std::optional<vo::Trajectory> read_if_any(const fs::path& path) {
 }
 
 /// Among the poses with a true one, the share within the ellipse that should hold 90 % of them.
-ordered_json share_inside_90(const fs::path& path, const vo::Trajectory& truth) {
+ordered_json share_inside_90(const fs::path& path, const vo::WalkTruth& truth) {
   if (!fs::exists(path)) return nullptr;
   constexpr double kNinety = 4.605170185988092;  // of chi-squared with two degrees of freedom: -2 ln 0.1
   const vo::CsvTable table = vo::CsvTable::read(path);
@@ -35,8 +35,8 @@ ordered_json share_inside_90(const fs::path& path, const vo::Trajectory& truth) 
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const auto f = static_cast<std::size_t>(frame[i]);
     const double determinant = xx[i] * yy[i] - xy[i] * xy[i];
-    if (f >= truth.size() || !(determinant > 0)) continue;
-    const double x = x_m[i] - truth[f].pose.x_m, y = y_m[i] - truth[f].pose.y_m;
+    if (f >= truth.pose.size() || !truth.pose[f] || !(determinant > 0)) continue;
+    const double x = x_m[i] - truth.pose[f]->x_m, y = y_m[i] - truth.pose[f]->y_m;
     inside += (yy[i] * x * x - 2 * xy[i] * x * y + xx[i] * y * y) / determinant <= kNinety ? 1 : 0;
     ++all;
   }
@@ -47,7 +47,8 @@ ordered_json share_inside_90(const fs::path& path, const vo::Trajectory& truth) 
 }  // namespace
 
 ordered_json trajectory_metrics(const fs::path& folder, const std::string& query_truth) {
-  const vo::Trajectory truth = vo::read_truth(query_truth).poses;
+  const vo::WalkTruth by_frame = vo::read_truth(query_truth);
+  const vo::Trajectory truth = vo::poses_of(by_frame);
   ordered_json json;
   const auto evaluated = [&](const char* file, TrajectoryAlignment alignment) {
     std::optional<place::TrajectoryEvaluation> result;
@@ -77,7 +78,7 @@ ordered_json trajectory_metrics(const fs::path& folder, const std::string& query
   json["rpe_mean_m"] = of(as_is, [](const Evaluation& e) { return e.rpe_m.mean; });
   json["ape_odometry_rmse_m"] = of(odometry, rmse);
   json["ape_odometry_end_m"] = of(odometry, end);
-  json["ape_inside_90"] = share_inside_90(folder / "trajectory.csv", truth);
+  json["ape_inside_90"] = share_inside_90(folder / "trajectory.csv", by_frame);
   return json;
 }
 

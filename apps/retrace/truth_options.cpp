@@ -26,11 +26,11 @@ Truth read_truth(const TruthOptions& options) {
   Truth truth;
   place::GroundTruth& places = truth.places;
   if (!options.reference_truth.empty())
-    places.reference_distance_m = vo::read_truth(options.reference_truth).distance_m;
+    places.reference_distance_m = place::distances_on(options.reference_truth);
   if (options.pairs.empty()) {
     vo::WalkTruth query = vo::read_truth(options.query_truth);
+    truth.poses = vo::poses_of(query);
     places.query_distance_m = std::move(query.distance_m);
-    truth.poses = std::move(query.poses);
     return truth;
   }
   places.pairs = place::read_pairs(options.pairs);

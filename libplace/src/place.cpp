@@ -1,6 +1,7 @@
 #include "place/place.hpp"
 
 #include "place/match/verify_matches.hpp"
+#include "place/match/walk_gaps.hpp"
 #include "place/route/survey.hpp"
 #include "place/stage_options.hpp"
 #include "place/trajectory/pose_fixes.hpp"
@@ -74,7 +75,8 @@ QueryTrajectory corrected(const Route& route, const vo::Walk& walk, const Run& r
     why_not = "correct-drift is false";
   } else {
     const vo::Trajectory odometry = odometry_at_keyframes(walk, run, options, why_not);
-    if (why_not.empty()) return query_trajectory(route, run.matches, odometry);
+    if (why_not.empty())
+      return query_trajectory(route, run.matches, odometry, gaps_at(run.sampled.frames, walk.time_s));
   }
   QueryTrajectory none;
   none.why_not = std::move(why_not);
@@ -135,6 +137,7 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
   Traverse traverse =
       make_traverse(name, walk, sampled, survey ? survey : survey_from_odometry(sampled.trajectory));
   traverse.settings = resolved;
+  traverse.settings.threads.reset();  // makes no difference, and the file none
   if (traverses.empty()) {
     route.metric = sampled.metric;
     route.unit = sampled.unit;

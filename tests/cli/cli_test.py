@@ -399,16 +399,12 @@ class CliTest(unittest.TestCase):
         files = {}
         for threads in ("1", "2"):
             route, out = self.folder / f"route{threads}.db", self.folder / f"run{threads}"
-            # The number of threads itself is a setting, kept in the database and the saved configuration.
             check("build", self.walks.reference, "-o", route, "--threads", threads)
             check("localise", self.walks.query, "--route", route, "-o", out, "--threads", threads, "--save-matrices")
             files[threads] = {name: (out / name).read_bytes() for name in
                               ("matches.csv", "trajectory.tum", "cost_matrix.png", "D.csv", "DD.csv")}
-            files[threads]["inspect"] = re.sub(r'"(threads|route|bytes)".*', "", check("inspect", route, "--json"))
+            files[threads]["route"] = route.read_bytes()
         self.assertEqual(files["1"], files["2"])
-        again = self.folder / "again.db"
-        check("build", self.walks.reference, "-o", again, "--threads", "2")
-        self.assertEqual(again.read_bytes(), (self.folder / "route2.db").read_bytes())
 
     def test_openseqslam_mode_leaves_the_ends_unmatched(self):
         route = self.folder / "route.db"

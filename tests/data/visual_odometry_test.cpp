@@ -82,7 +82,7 @@ TEST_P(VisualOdometryOnWalks, HoldsItsScale) {
     for (std::size_t i = 1; i < track.size(); ++i) {
       if (!track.frames[i].valid || track.frames[i].segment != segment) continue;
       way.push_back(track.frames[i].displacement);
-      true_way.push_back(truth.distance_m[i] - truth.distance_m[i - 1]);
+      true_way.push_back(*truth.distance_m[i] - *truth.distance_m[i - 1]);
     }
     constexpr std::size_t kParts = 5, kLeastFrames = 250;
     if (way.size() < kLeastFrames) continue;

@@ -235,8 +235,11 @@ std::optional<Chart> spacing_chart(const RunView& run) {
               .size = "wide"};
   std::vector<double> along_m;
   const auto& query_m = run.truth->truth.query_distance_m;
-  for (const place::Match& match : run.matches)
-    along_m.push_back(query_m[static_cast<std::size_t>(match.query_frame)]);
+  for (const place::Match& match : run.matches) {
+    const std::optional<double>& at_m = query_m[static_cast<std::size_t>(match.query_frame)];
+    if (at_m) along_m.push_back(*at_m);
+  }
+  if (along_m.size() < 2) return {};
   chart.series.push_back(walk_style(
       {.name = "query", .x = upto(along_m.size() - 1), .y = differences(along_m)}, chart.series.size()));
   for (const WalkColumns& traverse : run.traverses) {

@@ -17,9 +17,9 @@ std::optional<double> true_frame(const place::GroundTruth& truth, std::int64_t q
   if (truth.pairs) return place::true_reference_frame(*truth.pairs, static_cast<double>(query_frame));
   const auto& along = truth.reference_distance_m;
   if (query_frame >= static_cast<std::int64_t>(truth.query_distance_m.size()) || along.empty()) return {};
-  const double at_m = truth.query_distance_m[static_cast<std::size_t>(query_frame)];
-  if (at_m < along.front() || at_m > along.back()) return {};
-  return static_cast<double>(std::ranges::lower_bound(along, at_m) - along.begin());
+  const std::optional<double>& at_m = truth.query_distance_m[static_cast<std::size_t>(query_frame)];
+  if (!at_m || *at_m < along.front() || *at_m > along.back()) return {};
+  return static_cast<double>(std::ranges::lower_bound(along, *at_m) - along.begin());
 }
 
 }  // namespace

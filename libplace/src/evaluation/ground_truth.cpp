@@ -13,7 +13,8 @@
 namespace place {
 namespace {
 
-double at_frame(const std::vector<double>& by_frame, std::int64_t frame, std::string_view walk) {
+template <typename T>
+T at_frame(const std::vector<T>& by_frame, std::int64_t frame, std::string_view walk) {
   if (frame < 0 || frame >= static_cast<std::int64_t>(by_frame.size())) {
     throw vo::Error(fmt::format("{} truth", walk), fmt::format("has no frame {}", frame),
                     fmt::format("frames 0..{}; is it the truth of another walk?",
@@ -101,8 +102,10 @@ PlaceError place_error(const GroundTruth& truth, std::int64_t query_frame,
                               interpolated(truth.reference_distance_m, *true_frame))};
   }
 
-  const double distance_m = at_frame(truth.query_distance_m, query_frame, "query");
+  const std::optional<double> known_m = at_frame(truth.query_distance_m, query_frame, "query");
   if (truth.reference_distance_m.empty()) throw std::invalid_argument("place_error: no reference distances");
+  if (!known_m) return {};
+  const double distance_m = *known_m;
   const auto [low, high] = std::ranges::minmax(truth.reference_distance_m);
   const double slack_m = unit == ErrorUnit::kMetres ? tolerance : 0;
   if (distance_m < low - slack_m || distance_m > high + slack_m) return {};

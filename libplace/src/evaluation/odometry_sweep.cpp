@@ -4,10 +4,12 @@
 #include "place/stage_options.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
+#include <vo/io/trajectory_io.hpp>
 #include <vo/motion/walk_motion.hpp>
 
 namespace place {
@@ -57,7 +59,8 @@ std::vector<OdometrySweepRow> sweep_odometry(std::span<const OdometrySweepWalk> 
   std::vector<OdometrySweepRow> rows;
   for (const std::string& value : axis.values) rows.push_back({.value = value});
   for (std::size_t w = 0; w < walks.size(); ++w) {
-    const vo::WalkTruth& truth = walks[w].truth;
+    const vo::PosesOnTheWay truth = vo::poses_on_the_way(walks[w].truth);
+    const std::int64_t true_steps = vo::steps_in_all(walks[w].truth).value_or(0);
     OdometryEvaluationOptions of_walk = options;
     of_walk.seed += w;  // other starts on each walk
     vo::Walk walk;
@@ -77,8 +80,7 @@ std::vector<OdometrySweepRow> sweep_odometry(std::span<const OdometrySweepWalk> 
                         fmt::format("{} m or more", options.at_m.front()));
       const std::size_t steps = motion.pedestrian->detection.steps.size();
       rows[v].steps += steps;
-      if (!truth.steps.empty() && truth.steps.back() > 0)
-        counted[v].push_back({steps, static_cast<std::size_t>(truth.steps.back())});
+      if (true_steps > 0) counted[v].push_back({steps, static_cast<std::size_t>(true_steps)});
     }
   }
   for (std::size_t v = 0; v < rows.size(); ++v) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <vo/base/error.hpp>
 #include <vo/io/trajectory_io.hpp>
 
 namespace place {
@@ -25,10 +26,17 @@ OperatingPoint accepted_point(std::span<const Match> matches, const RunEvaluatio
 
 }  // namespace
 
+std::vector<double> distances_on(const std::filesystem::path& reference_truth) {
+  std::vector<double> distance_m = vo::distances_between(vo::read_truth(reference_truth));
+  if (distance_m.empty())
+    throw vo::Error(reference_truth.string(), "knows no distance", "distance_m of two frames or more");
+  return distance_m;
+}
+
 GroundTruth truth(const std::filesystem::path& query_truth, const std::filesystem::path& reference_truth) {
   return {.pairs = {},
           .query_distance_m = vo::read_truth(query_truth).distance_m,
-          .reference_distance_m = vo::read_truth(reference_truth).distance_m};
+          .reference_distance_m = distances_on(reference_truth)};
 }
 
 RunEvaluation evaluate(std::span<const Match> matches, const GroundTruth& truth, const Tolerance& tolerance) {

@@ -134,9 +134,12 @@ Survey survey_from_truth(const std::filesystem::path& path, const vo::Walk& walk
   }
   Survey survey{.source = path.filename().string(), .surveyed = true, .pose = {}, .distance_m = {}};
   for (std::size_t i = 0; i < walk.frames(); ++i) {
-    survey.pose.emplace_back(truth.poses[i].pose);
-    survey.distance_m.emplace_back(truth.distance_m[i]);
+    survey.pose.push_back(truth.pose[i]);
+    survey.distance_m.push_back(truth.distance_m[i]);
   }
+  const auto known = [](const auto& value) { return value.has_value(); };
+  if (std::ranges::none_of(survey.pose, known) && std::ranges::none_of(survey.distance_m, known))
+    throw vo::Error(path.string(), "knows neither a pose nor a distance", "those of the walk's frames");
   return survey;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <pugixml.hpp>
 
 #include <fmt/format.h>
@@ -55,7 +56,9 @@ void add_point(FileTrack& track, const pugi::xml_node& node) {
   ++track.all;
   const auto latitude = vo::parse_number(node.attribute("lat").value());
   const auto longitude = vo::parse_number(node.attribute("lon").value());
-  if (!latitude || !longitude || !on_earth({*latitude, *longitude})) {
+  // Receivers write 0, 0 before they know where they are.
+  const bool nowhere = latitude == 0.0 && longitude == 0.0;
+  if (!latitude || !longitude || nowhere || !on_earth({*latitude, *longitude})) {
     ++track.without_place;
     return;
   }
@@ -195,6 +198,16 @@ GeographicTrack read_gpx(const std::filesystem::path& file, const TrackOptions& 
   return track;
 }
 
+/// Whether a file's text begins with a `<`, whatever it is called.
+bool begins_as_xml(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  for (char c = 0; file.get(c);) {
+    const bool mark = static_cast<unsigned char>(c) >= 0x80 || c == '\0';  // of an encoding
+    if (!mark && std::isspace(static_cast<unsigned char>(c)) == 0) return c == '<';
+  }
+  return false;
+}
+
 GeographicTrack read_csv(const std::filesystem::path& path, const TrackOptions& options) {
   if (!options.track_name.empty())
     throw vo::Error(path.string(), "is no GPX file",
@@ -222,7 +235,8 @@ GeographicTrack read_csv(const std::filesystem::path& path, const TrackOptions& 
 GeographicTrack read_track(const std::filesystem::path& path, const TrackOptions& options) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".gpx" || extension == ".xml" ? read_gpx(path, options) : read_csv(path, options);
+  const bool xml = extension == ".gpx" || extension == ".xml" || begins_as_xml(path);
+  return xml ? read_gpx(path, options) : read_csv(path, options);
 }
 
 vo::Trajectory local_trajectory(const GeographicTrack& track, const GeographicOrigin& origin,

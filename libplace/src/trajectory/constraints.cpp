@@ -26,19 +26,24 @@ void share_information(std::vector<Constraint>& constraints, std::span<const dou
 
 }  // namespace
 
-std::vector<double> travelled_by_node_m(const vo::Trajectory& odometry) {
+std::vector<double> travelled_by_node_m(const vo::Trajectory& odometry, std::span<const std::size_t> gaps) {
+  constexpr double kFar_m = 1e4;
   std::vector<double> travelled_m(odometry.size(), 0);
   for (std::size_t i = 1; i < odometry.size(); ++i) {
     const vo::Pose2 &a = odometry[i - 1].pose, &b = odometry[i].pose;
-    travelled_m[i] = travelled_m[i - 1] + std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
+    const bool gap = std::ranges::binary_search(gaps, i);
+    travelled_m[i] = travelled_m[i - 1] + (gap ? kFar_m : std::hypot(b.x_m - a.x_m, b.y_m - a.y_m));
   }
   return travelled_m;
 }
 
-std::vector<pose_graph::Motion> motions_of(const vo::Trajectory& odometry) {
+std::vector<pose_graph::Motion> motions_of(const vo::Trajectory& odometry,
+                                           std::span<const std::size_t> gaps) {
   std::vector<pose_graph::Motion> motions;
-  for (std::size_t i = 1; i < odometry.size(); ++i)
+  for (std::size_t i = 1; i < odometry.size(); ++i) {
     motions.push_back(pose_graph::motion_between(odometry[i - 1].pose, odometry[i].pose));
+    motions.back().known = !std::ranges::binary_search(gaps, i);
+  }
   return motions;
 }
 

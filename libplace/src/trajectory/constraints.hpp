@@ -11,11 +11,14 @@
 /// From a walk and its matches to a pose graph's parts, and back.
 namespace place {
 
-/// Metres along the odometry at each node.
-std::vector<double> travelled_by_node_m(const vo::Trajectory& odometry);
+/// Metres along the odometry at each node; over each of the `gaps` (nodes after one), so many that no place
+/// before it is taken to be near one after it.
+std::vector<double> travelled_by_node_m(const vo::Trajectory& odometry,
+                                        std::span<const std::size_t> gaps = {});
 
-/// From each node to the next.
-std::vector<pose_graph::Motion> motions_of(const vo::Trajectory& odometry);
+/// From each node to the next; nothing is known of it over a gap.
+std::vector<pose_graph::Motion> motions_of(const vo::Trajectory& odometry,
+                                           std::span<const std::size_t> gaps = {});
 
 /// Standard deviation along the path of a match of a score, and of a fix.
 double match_sd_m(double score, const DriftCorrectionOptions& options);

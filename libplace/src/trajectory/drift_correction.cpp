@@ -59,14 +59,16 @@ bool DriftCorrectionOptions::is_valid(std::string* reason) const {
 }
 
 CorrectedWalk correct_drift(const vo::Trajectory& odometry, std::span<const PoseFix> fixes,
-                            std::span<const LoopClosure> loops, const DriftCorrectionOptions& options) {
+                            std::span<const LoopClosure> loops, const DriftCorrectionOptions& options,
+                            std::span<const std::size_t> gaps) {
   check(odometry, fixes, loops, options);
+  if (!std::ranges::is_sorted(gaps)) throw std::invalid_argument("correct_drift: gaps in order expected");
   CorrectedWalk walk;
-  const std::vector<double> travelled_m = travelled_by_node_m(odometry);
+  const std::vector<double> travelled_m = travelled_by_node_m(odometry, gaps);
   pose_graph::Graph graph;
   graph.states = fixes.empty() ? unaligned(odometry) : initial_alignment(odometry, travelled_m, fixes);
   if (graph.states.empty()) return walk;
-  graph.motions = motions_of(odometry);
+  graph.motions = motions_of(odometry, gaps);
   graph.fixes = constraints_of(fixes, travelled_m, options);
   graph.loops = constraints_of(loops, travelled_m, options);
   graph.prior = pose_graph::prior_at_start(graph.states.front(), fixes.empty(), options);

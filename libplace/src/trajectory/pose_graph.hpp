@@ -24,6 +24,7 @@ struct State {
 struct Motion {
   double forward_m = 0, right_m = 0, turn_rad = 0;
   double distance_m = 0;  ///< between the two
+  bool known = true;      ///< false over a gap of the recording, in which the walker may have gone anywhere
 };
 
 /// A fix or a loop closure in the solver.

@@ -45,6 +45,10 @@ struct MotionError {
     step_scale_sd = o.step_scale_walk * root_m;
     bias_sd = o.bias_walk_rad_per_m * root_m;
     turn_scale_sd = o.turn_scale_walk * root_m;
+    if (m.known) return;
+    constexpr double kAnywhere_m = 1000, kAnyTurn_rad = 3;
+    forward_sd = right_sd = kAnywhere_m;
+    turn_sd = kAnyTurn_rad;
   }
 
   template <typename T>

@@ -32,14 +32,14 @@ std::size_t matches_believed(const QueryTrajectory& trajectory) {
 }
 
 QueryTrajectory query_trajectory(const Route& route, const std::vector<Match>& matches,
-                                 const vo::Trajectory& odometry) {
+                                 const vo::Trajectory& odometry, std::span<const std::size_t> gaps) {
   if (odometry.size() != matches.size())
     throw std::invalid_argument("query_trajectory: a pose for each match expected");
   RouteFixes fixes = pose_fixes(route, matches);
   QueryTrajectory t;
   t.traverse = fixes.traverse;
   t.fixes = std::move(fixes.fixes);
-  if (!t.fixes.empty()) t.corrected = correct_drift(odometry, t.fixes);
+  if (!t.fixes.empty()) t.corrected = correct_drift(odometry, t.fixes, {}, {}, gaps);
   if (t.corrected.status != DriftStatus::kCorrected) {
     t.why_not = "fewer than three accepted matches agree with the walk between them";
     return t;

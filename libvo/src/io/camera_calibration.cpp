@@ -8,6 +8,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -34,15 +36,24 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+/// A key as all spell it: `cameraMatrix`, `Camera_Matrix`, `camera_matrix`.
+std::string plain_key(std::string_view key) {
+  std::string plain = lower(key);
+  std::erase(plain, '_');
+  return plain;
+}
+
+/// The values of a file, by keys however they are spelt.
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, FlatYaml values)
-      : path_(path.string()), values_(std::move(values)) {}
+  Reader(const std::filesystem::path& path, const FlatYaml& values) : path_(path.string()) {
+    for (const auto& [key, value] : values) values_.emplace(plain_key(key), value);
+  }
 
-  [[nodiscard]] bool has(const std::string& key) const { return values_.contains(key); }
+  [[nodiscard]] bool has(std::string_view key) const { return values_.contains(plain_key(key)); }
 
   [[nodiscard]] std::string text(const std::string& key) const {
-    const auto found = values_.find(key);
+    const auto found = values_.find(plain_key(key));
     return found == values_.end() ? std::string() : found->second;
   }
 
@@ -62,17 +73,20 @@ class Reader {
   FlatYaml values_;
 };
 
-/// The first of two keys that the file has.
-std::string either(const Reader& file, const std::string& a, const std::string& b) {
-  return file.has(a) ? a : b;
+/// The first of the keys that the file has, or the last.
+std::string first_of(const Reader& file, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (file.has(key)) return key;
+  return std::data(keys)[keys.size() - 1];
 }
 
+/// Kalibr's, its keys after `camera`; EuRoC's `sensor.yaml` has the same without one.
 Calibration kalibr(const Reader& file, const std::string& path, const std::string& camera) {
   Calibration c;
-  const std::vector<double> size = file.numbers(camera + ".resolution");
-  const std::vector<double> intrinsics = file.numbers(camera + ".intrinsics");
-  const std::string projection = lower(file.text(camera + ".camera_model"));
-  c.model = projection == "pinhole" ? lower(file.text(camera + ".distortion_model")) : projection;
+  const std::vector<double> size = file.numbers(camera + "resolution");
+  const std::vector<double> intrinsics = file.numbers(camera + "intrinsics");
+  const std::string projection = lower(file.text(camera + "camera_model"));
+  c.model = projection == "pinhole" ? lower(file.text(camera + "distortion_model")) : projection;
   if (projection == "pinhole" && intrinsics.size() != 4)
     throw Error(path, fmt::format("has {} intrinsics", intrinsics.size()), "4: fx fy cx cy");
   if (projection == "pinhole") std::ranges::copy(intrinsics, c.focal_and_centre.begin());
@@ -80,7 +94,8 @@ Calibration kalibr(const Reader& file, const std::string& path, const std::strin
     c.width = size[0];
     c.height = size[1];
   }
-  c.distortion = file.numbers(camera + ".distortion_coeffs");
+  c.distortion = file.numbers(
+      camera + (file.has("distortion_coefficients") ? "distortion_coefficients" : "distortion_coeffs"));
   return c;
 }
 
@@ -106,19 +121,20 @@ Calibration orb_slam(const Reader& file, const std::string& path, const std::str
 
 Calibration opencv_or_ros(const Reader& file, const std::string& path) {
   Calibration c;
-  c.width = file.number(either(file, "image_width", "width")).value_or(0);
-  c.height = file.number(either(file, "image_height", "height")).value_or(0);
+  c.width = file.number(first_of(file, {"image_width", "width"})).value_or(0);
+  c.height = file.number(first_of(file, {"image_height", "height"})).value_or(0);
   if (c.width < 1 || c.height < 1) throw Error(path, "has no image_width and image_height", kForm);
-  const std::string matrix = either(file, "camera_matrix.data", either(file, "K", "k"));
-  const std::vector<double> k = file.numbers(matrix);
+  const std::vector<double> k = file.numbers(first_of(file, {"camera_matrix.data", "camera_matrix", "K"}));
   if (k.size() != 9) throw Error(path, "has no 3x3 camera_matrix", kForm);
   c.focal_and_centre = {k[0], k[4], k[2], k[5]};
   c.model = lower(file.text("distortion_model"));
-  if (const std::string camera_model = lower(file.text(either(file, "camera_model", "model_type")));
+  if (const std::string camera_model = lower(file.text(first_of(file, {"camera_model", "model_type"})));
       !camera_model.empty() && camera_model != "pinhole")
     c.model = camera_model;
   if (file.number("fisheye_model").value_or(0) != 0) c.model = "fisheye";
-  c.distortion = file.numbers(either(file, "distortion_coefficients.data", either(file, "D", "d")));
+  c.distortion =
+      file.numbers(first_of(file, {"distortion_coefficients.data", "distortion_coefficients",
+                                   "dist_coeffs.data", "dist_coeffs", "dist_coeff.data", "dist_coeff", "D"}));
   return c;
 }
 
@@ -136,16 +152,17 @@ FlatYaml by_opencv(const std::filesystem::path& path) {
     const cv::FileStorage file(path.string(), cv::FileStorage::READ);
     if (!file.isOpened()) throw Error(path.string(), "cannot be read", kForm);
     FlatYaml values;
-    for (const char* key : {"image_width", "image_height", "fisheye_model"}) {
-      if (file[key].isInt()) values[key] = std::to_string(static_cast<int>(file[key]));
-    }
-    for (const char* key : {"camera_model", "distortion_model"}) {
-      if (file[key].isString()) values[key] = file[key].string();
-    }
-    for (const char* key : {"camera_matrix", "distortion_coefficients"}) {
-      cv::Mat matrix;
-      if (!file[key].isNone()) file[key] >> matrix;
-      if (!matrix.empty()) values[fmt::format("{}.data", key)] = list(matrix);
+    for (const cv::String& key : file.root().keys()) {
+      const cv::FileNode node = file[key];
+      if (node.isInt()) {
+        values[key] = std::to_string(static_cast<int>(node));
+      } else if (node.isString()) {
+        values[key] = node.string();
+      } else if (node.isMap() && !node["data"].isNone()) {
+        cv::Mat matrix;
+        node >> matrix;
+        if (!matrix.empty()) values[key + ".data"] = list(matrix);
+      }
     }
     return values;
   } catch (const cv::Exception&) {
@@ -165,7 +182,8 @@ FlatYaml values_of(const std::filesystem::path& path) {
 }
 
 LensModel lens_of(const std::string& path, const std::string& model) {
-  for (const char* known : {"", "none", "pinhole", "rectified", "plumb_bob", "rational_polynomial", "radtan"})
+  for (const char* known : {"", "none", "pinhole", "rectified", "plumb_bob", "rational_polynomial", "radtan",
+                            "radial-tangential"})
     if (model == known) return LensModel::kOpenCv;
   for (const char* known : {"equidistant", "fisheye", "kannalabrandt8"})
     if (model == known) return LensModel::kEquidistant;
@@ -180,7 +198,9 @@ Camera read_camera_calibration(const std::filesystem::path& path) {
   const Reader file(path, values_of(path));
   Calibration c;
   if (file.has("cam0.camera_model")) {
-    c = kalibr(file, name, "cam0");
+    c = kalibr(file, name, "cam0.");
+  } else if (file.has("intrinsics") && file.has("resolution")) {
+    c = kalibr(file, name, "");
   } else if (file.has("Camera.fx") || file.has("Camera.type")) {
     c = orb_slam(file, name, file.has("Camera.fx") ? "Camera" : "Camera1");
   } else if (file.has("Camera1.fx")) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -50,6 +51,12 @@ char separator_of(std::string_view header) {
     for (std::size_t i = 0; !quoted && i < kSeparators.size(); ++i) count[i] += c == kSeparators[i] ? 1 : 0;
   }
   return kSeparators[static_cast<std::size_t>(std::ranges::max_element(count) - count.begin())];
+}
+
+/// Column names are the same in capitals too.
+bool same_name(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a, b, [](unsigned char c, unsigned char d) { return std::tolower(c) == std::tolower(d); });
 }
 
 bool all_empty(const std::vector<std::string>& cells) {
@@ -142,11 +149,12 @@ void CsvTable::find_decimal_mark(char separator) {
 }
 
 bool CsvTable::has(std::string_view column) const {
-  return std::ranges::find(header_, column) != header_.end();
+  return std::ranges::any_of(header_, [&](const std::string& name) { return same_name(name, column); });
 }
 
 std::size_t CsvTable::column_index(std::string_view column) const {
-  const auto found = std::ranges::find(header_, column);
+  const auto found =
+      std::ranges::find_if(header_, [&](const std::string& name) { return same_name(name, column); });
   if (found == header_.end()) {
     throw Error(path_, fmt::format("has no column '{}'", column),
                 fmt::format("it among those there are ({})", fmt::join(header_, ", ")));
@@ -196,15 +204,25 @@ std::vector<double> CsvTable::numbers(std::string_view column) const {
   return values;
 }
 
+std::vector<std::optional<std::int64_t>> CsvTable::optional_indices(std::string_view column) const {
+  std::vector<std::optional<std::int64_t>> values;
+  values.reserve(cells_.size());
+  for (const std::optional<double>& value : optional_numbers(column)) {
+    if (value && (*value < 0 || *value != std::floor(*value) || *value > 9e15)) {
+      throw Error(where(values.size()), fmt::format("{} is {}", column, *value),
+                  "a whole number, 0 or greater");
+    }
+    values.push_back(value ? std::optional(static_cast<std::int64_t>(*value)) : std::nullopt);
+  }
+  return values;
+}
+
 std::vector<std::int64_t> CsvTable::indices(std::string_view column) const {
   std::vector<std::int64_t> values;
   values.reserve(cells_.size());
-  for (const double value : numbers(column)) {
-    if (value < 0 || value != std::floor(value) || value > 9e15) {
-      throw Error(where(values.size()), fmt::format("{} is {}", column, value),
-                  "a whole number, 0 or greater");
-    }
-    values.push_back(static_cast<std::int64_t>(value));
+  for (const std::optional<std::int64_t>& value : optional_indices(column)) {
+    if (!value) throw Error(where(values.size()), fmt::format("{} is empty", column), "a whole number");
+    values.push_back(*value);
   }
   return values;
 }

@@ -23,33 +23,80 @@ double yaw_from_heading(double heading_rad) {
 
 WalkTruth read_truth(const std::filesystem::path& path) {
   const CsvTable table = CsvTable::read(path);
-  const std::vector<double> time_s = table.numbers("time_s");
-  const std::vector<double> x_m = table.numbers("x_m");
-  const std::vector<double> y_m = table.numbers("y_m");
-  const std::vector<double> heading_deg = table.numbers("heading_deg");
+  const auto x_m = table.optional_numbers("x_m"), y_m = table.optional_numbers("y_m");
+  const auto heading_deg = table.optional_numbers("heading_deg");
 
   WalkTruth truth;
+  truth.time_s = table.numbers("time_s");
   truth.frame = table.indices("frame");
-  truth.distance_m = table.numbers("distance_m");
-  if (table.has("steps")) truth.steps = table.indices("steps");
+  truth.distance_m = table.optional_numbers("distance_m");
+  if (table.has("steps")) truth.steps = table.optional_indices("steps");
   if (table.rows() == 0) throw Error(path.string(), "has no rows", "one row for each frame");
+  std::optional<double> before_m;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     if (truth.frame[i] != static_cast<std::int64_t>(i)) {
       throw Error(table.where(i), fmt::format("frame is {}", truth.frame[i]), fmt::format("{}", i));
     }
-    if (i > 0 && time_s[i] <= time_s[i - 1]) {
-      throw Error(table.where(i), fmt::format("time {} s does not follow {} s", time_s[i], time_s[i - 1]),
+    if (i > 0 && truth.time_s[i] <= truth.time_s[i - 1]) {
+      throw Error(table.where(i),
+                  fmt::format("time {} s does not follow {} s", truth.time_s[i], truth.time_s[i - 1]),
                   "strictly increasing times");
     }
-    if (i > 0 && truth.distance_m[i] < truth.distance_m[i - 1]) {
+    const std::optional<double>& distance_m = truth.distance_m[i];
+    if (distance_m && before_m && *distance_m < *before_m) {
       throw Error(table.where(i),
-                  fmt::format("distance {} m is less than the {} m before", truth.distance_m[i],
-                              truth.distance_m[i - 1]),
+                  fmt::format("distance {} m is less than the {} m before", *distance_m, *before_m),
                   "the distance travelled since the start, which never decreases");
     }
-    truth.poses.push_back({time_s[i], {x_m[i], y_m[i], wrap_angle_rad(heading_deg[i] * kRadPerDeg)}});
+    if (distance_m) before_m = distance_m;
+    const bool known = x_m[i] && y_m[i] && heading_deg[i];
+    truth.pose.push_back(
+        known ? std::optional(Pose2{*x_m[i], *y_m[i], wrap_angle_rad(*heading_deg[i] * kRadPerDeg)})
+              : std::nullopt);
   }
   return truth;
+}
+
+Trajectory poses_of(const WalkTruth& truth) {
+  Trajectory poses;
+  for (std::size_t i = 0; i < truth.pose.size(); ++i)
+    if (truth.pose[i]) poses.push_back({truth.time_s[i], *truth.pose[i]});
+  return poses;
+}
+
+PosesOnTheWay poses_on_the_way(const WalkTruth& truth) {
+  PosesOnTheWay known;
+  for (std::size_t i = 0; i < truth.pose.size(); ++i) {
+    if (!truth.pose[i] || !truth.distance_m[i]) continue;
+    known.poses.push_back({truth.time_s[i], *truth.pose[i]});
+    known.distance_m.push_back(*truth.distance_m[i]);
+  }
+  return known;
+}
+
+std::optional<std::int64_t> steps_in_all(const WalkTruth& truth) {
+  std::optional<std::int64_t> last;
+  for (const std::optional<std::int64_t>& steps : truth.steps)
+    if (steps) last = steps;
+  return last;
+}
+
+std::vector<double> distances_between(const WalkTruth& truth) {
+  std::vector<double> filled;
+  std::optional<std::size_t> before;
+  for (std::size_t i = 0; i < truth.distance_m.size(); ++i) {
+    if (!truth.distance_m[i]) continue;
+    const double to_m = *truth.distance_m[i], from_m = before ? *truth.distance_m[*before] : to_m;
+    while (filled.size() < i) {
+      const double share =
+          before ? static_cast<double>(filled.size() - *before) / static_cast<double>(i - *before) : 0;
+      filled.push_back(std::lerp(from_m, to_m, share));
+    }
+    filled.push_back(to_m);
+    before = i;
+  }
+  if (before) filled.resize(truth.distance_m.size(), filled.back());
+  return filled;
 }
 
 Trajectory read_tum(const std::filesystem::path& path) {

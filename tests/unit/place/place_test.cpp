@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -87,6 +88,19 @@ TEST_F(PlaceTest, SaysHowARouteIsBuiltThatCanBeLookedAtAgain) {
       "`retrace build --view-points true`";
   EXPECT_EQ(said([&] { place::localise(route, night_.walk, settings); }), expected);
   EXPECT_EQ(said([&] { place::read("none.mp4", route, settings); }), expected);  // before anything is read
+}
+
+TEST_F(PlaceTest, ARouteIsTheSameForAnyNumberOfThreads) {
+  Settings settings;
+  std::vector<Settings> kept;
+  for (const int threads : {1, 2}) {
+    settings.threads = threads;
+    place::Route route = place::new_route(merged(settings, by_thumbnails()));
+    place::add(route, "day", day_.walk, {}, settings);
+    kept.push_back(route.traverses[0].settings);
+    EXPECT_FALSE(route.settings.threads);
+  }
+  EXPECT_EQ(kept[0], kept[1]);
 }
 
 TEST_F(PlaceTest, ARunsSettingsRepeatIt) {

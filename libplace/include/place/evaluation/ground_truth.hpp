@@ -28,8 +28,8 @@ std::optional<double> true_reference_frame(const LandmarkPairs& pairs, double qu
 /// may be given with `pairs` to turn frames into metres.
 struct GroundTruth {
   std::optional<LandmarkPairs> pairs;
-  std::vector<double> query_distance_m;      ///< for each query frame; empty with `pairs`
-  std::vector<double> reference_distance_m;  ///< for each reference frame
+  std::vector<std::optional<double>> query_distance_m;  ///< for each query frame; empty with `pairs`
+  std::vector<double> reference_distance_m;             ///< for each reference frame
 };
 
 /// The unit of a tolerance and of errors.
@@ -41,9 +41,9 @@ struct PlaceError {
   std::optional<double> error;  ///< distance of the match from that place; none without truth or match
 };
 
-/// Compares one match with the truth. With distances, a query has a true place if the reference comes within
-/// `tolerance` of its distance; the error in frames is to the nearest reference frame at that distance (a
-/// walker who is still spends many there). Throws `vo::Error` if a frame is outside the truth,
+/// Compares one match with the truth. With distances, a query has a true place if its own is known and the
+/// reference comes within `tolerance` of it; the error in frames is to the nearest reference frame at that
+/// distance (a walker who is still spends many there). Throws `vo::Error` if a frame is outside the truth,
 /// `std::invalid_argument` if the truth cannot give errors in `unit`. O(frames).
 PlaceError place_error(const GroundTruth& truth, std::int64_t query_frame,
                        std::optional<std::int64_t> reference_frame, ErrorUnit unit, double tolerance);

@@ -31,6 +31,10 @@ struct RunEvaluation {
   std::optional<Calibration> calibration;
 };
 
+/// The distances of a reference's frames from its `truth.csv`; unknown ones lie between known ones
+/// (`vo::distances_between`). Throws `vo::Error` as `vo::read_truth` does, and if none is known.
+std::vector<double> distances_on(const std::filesystem::path& reference_truth);
+
 /// The truth for a query and a reference that were both surveyed: `read_truth` of both. Throws `vo::Error` as
 /// that does.
 GroundTruth truth(const std::filesystem::path& query_truth, const std::filesystem::path& reference_truth);

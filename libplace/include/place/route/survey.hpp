@@ -27,8 +27,8 @@ struct SurveyOptions {
 inline constexpr double kTrajectoryGap_s = 2;  ///< a bend in a walk takes longer
 inline constexpr double kTrackGap_s = 20;      ///< receivers leave out points on straights
 
-/// Poses and distances of a walk's frames from `truth.csv`. Throws `vo::Error` unless it has one row for each
-/// frame.
+/// Poses and distances of a walk's frames from `truth.csv`, where it has them. Throws `vo::Error` unless it
+/// has one row for each frame, and if all of them are empty.
 Survey survey_from_truth(const std::filesystem::path& path, const vo::Walk& walk);
 
 /// The same from a trajectory (`vo::read_pose_series`). Frames outside it or in its gaps have no pose; the

@@ -28,15 +28,15 @@ struct TrackOptions {
   double video_duration_s = 0;
 };
 
-/// Reads a track: a GPX file, or a CSV file with columns time_s, latitude_deg (or lat_deg), longitude_deg (or
-/// lon_deg), whose times are used unchanged.
+/// Reads a track: a GPX file, recognised by its ending or its first character, or a CSV file with columns
+/// time_s, latitude_deg (or lat_deg), longitude_deg (or lon_deg), whose times are used unchanged.
 ///
 /// In a GPX file every `trkpt` with a place and a time counts, in any encoding, name space prefix or time
-/// zone; segments are sorted by time. Points without place or time, out of order within a segment, or with a
-/// repeated time are left out and counted in `warnings`, as is a file that is cut off. Of several tracks, the
-/// one asked for by name is read, otherwise the one with most time during the video, otherwise the latest; a
-/// warning names them. A file that counts from 1970 (`to_gpx` without a start) has times since the walk's
-/// first frame.
+/// zone; segments are sorted by time. Points without place (0, 0 is none) or time, out of order within a
+/// segment, or with a repeated time are left out and counted in `warnings`, as is a file that is cut off. Of
+/// several tracks, the one asked for by name is read, otherwise the one with most time during the video,
+/// otherwise the latest; a warning names them. A file that counts from 1970 (`to_gpx` without a start) has
+/// times since the walk's first frame.
 ///
 /// Throws `vo::Error` naming the file if it is neither, has no track (a route, waypoints), no track with that
 /// name, or fewer than two usable points. O(n log n).

@@ -104,13 +104,18 @@ struct CorrectedWalk {
 /// solution is increased by the errors that no match on one route can show: steady_along_m and
 /// steady_aside_m.
 ///
+/// Over a gap of the recording odometry says nothing: the next node may be anywhere, with a standard
+/// deviation of 1000 m, which is also that of nodes after it without a fix.
+///
 /// `odometry`: the nodes' poses in the walk's own frame, with times; `fixes` and `loops` by increasing node,
-/// at most one each. Without fixes, poses are relative to the first node, which keeps its odometry pose.
-/// Throws `std::invalid_argument` for options that are not valid, nodes that do not exist, or unordered
-/// fixes. Memory is linear in nodes and fixes; 20,000 nodes take seconds (`drift_bench`).
+/// at most one each; `gaps`: the nodes right after gaps, increasing (`gaps_at`). Without fixes, poses are
+/// relative to the first node, which keeps its odometry pose. Throws `std::invalid_argument` for options that
+/// are not valid, nodes that do not exist, or unordered fixes or gaps. Memory is linear in nodes and fixes;
+/// 20,000 nodes take seconds (`drift_bench`).
 CorrectedWalk correct_drift(const vo::Trajectory& odometry, std::span<const PoseFix> fixes,
                             std::span<const LoopClosure> loops = {},
-                            const DriftCorrectionOptions& options = {});
+                            const DriftCorrectionOptions& options = {},
+                            std::span<const std::size_t> gaps = {});
 
 /// The corrected poses of all of a walk's odometry, of which the nodes are a part: between two nodes the
 /// correction is interpolated, evenly in time; beyond the first and last it keeps theirs. `nodes`: their

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,10 @@ struct QueryTrajectory {
 std::size_t matches_believed(const QueryTrajectory& trajectory);
 
 /// Corrects the drift of a walk's odometry by its matches (PVO 6; `pose_fixes`, `correct_drift`). `odometry`:
-/// a pose for each match. A correction that rejects more than two thirds of the matches is not trusted, and
-/// there is none. Throws `std::invalid_argument` for another number of poses.
+/// a pose for each match; `gaps`: the matches right after gaps of the recording (`gaps_at`). A correction
+/// that rejects more than two thirds of the matches is not trusted, and there is none. Throws
+/// `std::invalid_argument` for another number of poses.
 QueryTrajectory query_trajectory(const Route& route, const std::vector<Match>& matches,
-                                 const vo::Trajectory& odometry);
+                                 const vo::Trajectory& odometry, std::span<const std::size_t> gaps = {});
 
 }  // namespace place

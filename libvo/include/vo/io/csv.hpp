@@ -28,6 +28,7 @@ class CsvTable {
   static CsvTable read(const std::filesystem::path& path, UnevenRows uneven = UnevenRows::kRefuse);
 
   [[nodiscard]] std::size_t rows() const { return cells_.size(); }
+  /// Columns are found by name in small letters or capitals.
   [[nodiscard]] bool has(std::string_view column) const;
   [[nodiscard]] const std::vector<std::string>& header() const { return header_; }
   /// Uneven rows left out.
@@ -44,6 +45,8 @@ class CsvTable {
   [[nodiscard]] std::vector<std::optional<double>> numbers_where_they_are(std::string_view column) const;
   /// The column as whole numbers >= 0. Throws as `numbers`.
   [[nodiscard]] std::vector<std::int64_t> indices(std::string_view column) const;
+  /// The same, with none for an empty cell.
+  [[nodiscard]] std::vector<std::optional<std::int64_t>> optional_indices(std::string_view column) const;
 
   /// "path: line N", for messages on a row.
   [[nodiscard]] std::string where(std::size_t row) const;

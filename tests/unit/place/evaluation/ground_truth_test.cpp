@@ -128,6 +128,14 @@ TEST(PlaceError, AnyFrameOfAStandingWalkerIsRight) {
   EXPECT_EQ(error_of(truth, 0, 6, ErrorUnit::kFrames), 1);
 }
 
+TEST(PlaceError, IsNoneWhereTheQuerysDistanceIsNotKnown) {
+  const place::GroundTruth truth{
+      .pairs = std::nullopt, .query_distance_m = {0, std::nullopt, 2}, .reference_distance_m = {0, 1, 2}};
+  EXPECT_FALSE(place::place_error(truth, 1, 1, ErrorUnit::kMetres, 4).has_truth);
+  EXPECT_FALSE(place::place_error(truth, 1, {}, ErrorUnit::kFrames, 4).has_truth);
+  EXPECT_EQ(error_of(truth, 2, 1, ErrorUnit::kMetres), 1);
+}
+
 TEST(PlaceError, SaysWhichTruthDoesNotHaveTheFrame) {
   const place::GroundTruth truth{
       .pairs = std::nullopt, .query_distance_m = {0, 1}, .reference_distance_m = {0, 1, 2}};

@@ -46,7 +46,8 @@ class OdometrySweep : public testing::Test {
       }
       walk_.time_s.push_back(time_s);
       walk_.tracked.push_back(motion);
-      one.truth.poses.push_back({time_s, {0, metres, 0}});
+      one.truth.time_s.push_back(time_s);
+      one.truth.pose.emplace_back(vo::Pose2{0, metres, 0});
       one.truth.distance_m.push_back(metres);
       one.truth.steps.push_back(i == 499 ? 40 : 0);
     }

@@ -44,6 +44,21 @@ TEST(Survey, TruthHasOneRowForEachFrame) {
                     "truth.csv: has 2 rows; expected 3, one for each frame of walk.mp4");
 }
 
+TEST(Survey, TruthMayNotKnowAllFrames) {
+  const TemporaryFolder folder;
+  const std::string header = "frame,time_s,x_m,y_m,heading_deg,distance_m\n";
+  const place::Survey survey = place::survey_from_truth(
+      folder.write("truth.csv", header + "0,0,,,,0\n1,0.5,2,2,90,\n2,1,,,,\n"), recording(3, 2));
+  EXPECT_FALSE(survey.pose[0]);
+  EXPECT_TRUE(survey.pose[1]);
+  EXPECT_FALSE(survey.pose[2]);
+  EXPECT_EQ(survey.distance_m[0], 0);
+  EXPECT_FALSE(survey.distance_m[1]);
+  EXPECT_THROW_WITH(
+      place::survey_from_truth(folder.write("truth.csv", header + "0,0,,,,\n1,0.5,,,,\n"), recording(2, 2)),
+      vo::Error, "truth.csv: knows neither a pose nor a distance");
+}
+
 TEST(Survey, ATrajectoryIsReadBetweenItsPoses) {
   // North at 2 m/s for two seconds, a pose each second; frames at 2 Hz for three.
   const TemporaryFolder folder;

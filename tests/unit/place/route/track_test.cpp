@@ -65,6 +65,8 @@ TEST(Track, ReadsGpxAsProgramsWriteIt) {
   };
   reads(plain);
   reads(plain, "WALK.GPX");
+  reads(plain, "walk");  // told by its content
+  reads("\xEF\xBB\xBF\n" + plain, "walk.txt");
   reads("\xEF\xBB\xBF" + plain);
   reads(replaced(plain, "lat=\"", "lat = \""));
   reads(replaced(plain, "<trkpt", "<!-- <trkpt lat=\"1\" lon=\"2\"></trkpt> --><trkpt"));
@@ -89,11 +91,12 @@ TEST(Track, LeavesOutBadPointsAndSaysSo) {
   const std::string bad = point(51.5, -0.25, "") +  // untimed
                           "<trkpt lat=\"\" lon=\"\"><time>2024-05-31T12:00:01Z</time></trkpt>" +
                           point(95, -0.25, "2024-05-31T12:00:01Z") +
+                          point(0, 0, "2024-05-31T11:59:59Z") +  // before the receiver knew where it was
                           point(51.6, -0.25, "2024-05-31T12:00:02Z");  // a second point at that time
   const auto track = read(gpx("<trk>" + three() + "<trkseg>" + bad + "</trkseg></trk>"));
   expect_three(track, "bad points");
   EXPECT_THAT(track.warnings,
-              ElementsAre(HasSubstr("4 of 7 points are left out: 2 without a place, 1 without a time, 1 at a "
+              ElementsAre(HasSubstr("5 of 8 points are left out: 3 without a place, 1 without a time, 1 at a "
                                     "time that is there already")));
 }
 

@@ -1,12 +1,15 @@
 #include "support/drifting_walk.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <Eigen/Dense>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <place/trajectory/drift_correction.hpp>
@@ -50,6 +53,48 @@ TEST(DriftCorrection, PutsAStraightWalkWhereItsFixesAre) {
     EXPECT_NEAR(walk.step_scale[i], 1, 1e-3);
     EXPECT_GT(walk.fix_weight[i], 0.99);
   }
+}
+
+TEST(DriftCorrection, KnowsNothingOfWhatWasWalkedInAGap) {
+  // The recording pauses while the walker goes on by 40 m and turns: the odometry goes on where it was.
+  const vo::Trajectory whole = walk_round_corners(400, 3);
+  constexpr std::size_t kGap = 160, kAfter = 240;
+  vo::Trajectory truth(whole.begin(), whole.begin() + kGap);
+  truth.insert(truth.end(), whole.begin() + kAfter, whole.end());
+  vo::Trajectory odometry(whole.begin(), whole.begin() + kGap);
+  vo::Pose2 at = odometry.back().pose;
+  for (std::size_t i = kGap; i < truth.size(); ++i) {
+    // The step from the node before, seen from its heading, put on from where the odometry is.
+    if (i > kGap) {
+      const vo::Pose2 &a = truth[i - 1].pose, &b = truth[i].pose;
+      at = advance(at, distance_m(a, b), vo::wrap_angle_rad(b.heading_rad - a.heading_rad));
+    }
+    odometry.push_back({truth[i].time_s, at});
+  }
+  const std::vector<PoseFix> fixes = fixes_of(truth, 4);
+  const std::vector<std::size_t> gaps{kGap};
+  const CorrectedWalk walk = correct_drift(odometry, fixes, {}, {}, gaps);
+  ASSERT_EQ(walk.status, DriftStatus::kCorrected);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_LT(distance_m(walk.poses[i].pose, truth[i].pose), 0.05) << i;
+  EXPECT_THAT(walk.fix_weight, testing::Each(testing::Gt(0.9)));
+  // Taken for one walk, what lies on one side of it is torn away, or its matches are let go.
+  double worst_m = 0;
+  const CorrectedWalk torn = correct_drift(odometry, fixes);
+  for (std::size_t i = 0; i < torn.poses.size(); ++i)
+    worst_m = std::max(worst_m, distance_m(torn.poses[i].pose, truth[i].pose));
+  EXPECT_GT(worst_m, 2);
+
+  // After a gap without a fix beyond it, nobody knows where the walker is.
+  std::vector<PoseFix> before;
+  for (const PoseFix& fix : fixes)
+    if (fix.node < kGap) before.push_back(fix);
+  const CorrectedWalk lost = correct_drift(odometry, before, {}, {}, gaps);
+  ASSERT_EQ(lost.status, DriftStatus::kCorrected);
+  EXPECT_LT(position_covariance(lost.poses[kGap - 1]).trace(), 1);
+  EXPECT_GT(position_covariance(lost.poses[kGap]).trace(), 1e5);
+  const std::vector<std::size_t> unordered{5, 3};
+  EXPECT_THROW(correct_drift(odometry, fixes, {}, {}, unordered), std::invalid_argument);
 }
 
 TEST(DriftCorrection, FindsStepLengthAndFieldOfViewThatAreOff) {

@@ -148,6 +148,14 @@ TEST_F(CameraCalibration, IsReadAsOtherProgramsWriteIt) {
   expect_pinhole(vo::read_camera_calibration(
       file("height: 360\nwidth: 640\ndistortion_model: \"plumb_bob\"\nD: [0.0, 0.0, 0.0, 0.0, 0.0]\n"
            "K: [508.5, 0.0, 319.0, 0.0, 507.5, 179.5, 0.0, 0.0, 1.0]\n")));  // a message as it is printed
+  expect_pinhole(vo::read_camera_calibration(file(
+      "image_Width: 640\nimage_Height: 360\ncameraMatrix: [[508.5, 0, 319], [0, 507.5, 179.5], [0, 0, 1]]\n"
+      "distCoeffs: [[0.1, -0.2, 0, 0, 0]]\n")));  // other spellings, and a list as Python writes it
+  expect_pinhole(vo::read_camera_calibration(
+      file("sensor_type: camera\nrate_hz: 20\nresolution: [640, 360]\ncamera_model: pinhole\n"
+           "intrinsics: [508.5, 507.5, 319.0, 179.5] #fu, fv, cu, cv\n"
+           "distortion_model: radial-tangential\n"
+           "distortion_coefficients: [0.1, -0.2, 0.0, 0.0]\n")));  // EuRoC
   const vo::Camera unsized = vo::read_camera_calibration(
       file(without_line(without_line(kOrbSlam, "Camera.width"), "Camera.height")));
   EXPECT_EQ(unsized.width_px, 0);
@@ -159,8 +167,10 @@ TEST_F(CameraCalibration, IsReadAsOpenCvWritesXmlAndJson) {
     const auto path = folder_.path() / name;
     {
       cv::FileStorage out(path.string(), cv::FileStorage::WRITE);
-      out << "image_width" << 640 << "image_height" << 360;
-      out << "camera_matrix" << cv::Mat(cv::Matx33d(508.5, 0, 319, 0, 507.5, 179.5, 0, 0, 1));
+      const bool old = std::string_view(name) == "camera.xml";  // the names of OpenCV's older sample
+      out << (old ? "image_Width" : "image_width") << 640 << "image_height" << 360;
+      out << (old ? "Camera_Matrix" : "camera_matrix")
+          << cv::Mat(cv::Matx33d(508.5, 0, 319, 0, 507.5, 179.5, 0, 0, 1));
       out << "distortion_coefficients" << cv::Mat(cv::Matx<double, 1, 5>(0.1, -0.2, 0, 0, 0));
     }
     const vo::Camera camera = vo::read_camera_calibration(path);

@@ -25,6 +25,10 @@ TEST(Csv, ReadsColumnsByName) {
   EXPECT_THAT(table.optional_numbers("b"), ElementsAre(2.5, std::nullopt));
   EXPECT_THROW_WITH(table.numbers("b"), vo::Error, "t.csv: line 4: b is empty; expected a finite number");
   EXPECT_THROW_WITH(table.numbers("c"), vo::Error, "t.csv: line 2: c is 'x'");
+  EXPECT_TRUE(table.has("B"));  // as some programs write names
+  EXPECT_THAT(table.text("C"), ElementsAre("x", "y"));
+  EXPECT_THAT(table.optional_indices("A"), ElementsAre(1, 3));
+  EXPECT_THROW_WITH(table.optional_indices("b"), vo::Error, "t.csv: line 2: b is 2.5");
   EXPECT_THROW_WITH(table.numbers("d"), vo::Error,
                     "t.csv: has no column 'd'; expected it among those there are (a, b, c)");
 }

@@ -23,8 +23,9 @@ TEST(Truth, ReadsFramesInOrder) {
       vo::read_truth(folder.write("t.csv", header + "0,0,1,2,90,0,0\n1,0.04,1.5,2,-270,0.5,1\n"));
   EXPECT_THAT(truth.distance_m, ElementsAre(0, 0.5));
   EXPECT_THAT(truth.steps, ElementsAre(0, 1));
-  EXPECT_NEAR(truth.poses[1].pose.heading_rad, 90 * kDegree, 1e-12);
-  EXPECT_DOUBLE_EQ(truth.poses[1].pose.x_m, 1.5);
+  ASSERT_TRUE(truth.pose[1]);
+  EXPECT_NEAR(truth.pose[1]->heading_rad, 90 * kDegree, 1e-12);
+  EXPECT_DOUBLE_EQ(truth.pose[1]->x_m, 1.5);
 
   EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header)), vo::Error, "has no rows");
   EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header + "1,0,0,0,0,0,0\n")), vo::Error,
@@ -34,6 +35,32 @@ TEST(Truth, ReadsFramesInOrder) {
   EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", "frame,time_s\n0,0\n")), vo::Error, "has no column");
   EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header + "0,0,0,0,0,2,0\n1,1,0,0,0,1.5,0\n")),
                     vo::Error, "line 3: distance 1.5 m is less than the 2 m before");
+}
+
+TEST(Truth, EmptyCellsAreWhatIsNotKnown) {
+  const TemporaryFolder folder;
+  const vo::WalkTruth truth =
+      vo::read_truth(folder.write("t.csv",
+                                  "frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n"
+                                  "0,0,,,,,\n1,1,1,2,,3,1\n2,2,1,2,0,,\n"
+                                  "3,3,1,3,0,4,\n4,4,,,,6,5\n5,5,,,,,\n"));
+  using testing::Optional;
+  const auto none = std::nullopt;
+  EXPECT_THAT(truth.distance_m, ElementsAre(none, Optional(3), none, Optional(4), Optional(6), none));
+  EXPECT_THAT(truth.steps, ElementsAre(none, Optional(1), none, none, Optional(5), none));
+  EXPECT_EQ(vo::steps_in_all(truth), 5);
+  EXPECT_EQ(vo::steps_in_all({}), none);
+  // A pose without its heading is none.
+  EXPECT_THAT(vo::poses_of(truth), testing::SizeIs(2));
+  EXPECT_EQ(vo::poses_of(truth)[0].time_s, 2);
+  const vo::PosesOnTheWay both = vo::poses_on_the_way(truth);
+  EXPECT_THAT(both.poses, testing::SizeIs(1));
+  EXPECT_THAT(both.distance_m, ElementsAre(4));
+  EXPECT_THAT(vo::distances_between(truth), ElementsAre(3, 3, 3.5, 4, 6, 6));
+  EXPECT_TRUE(vo::distances_between({}).empty());
+  const vo::WalkTruth unknown = vo::read_truth(
+      folder.write("t.csv", "frame,time_s,x_m,y_m,heading_deg,distance_m\n0,0,,,,\n1,1,,,,\n"));
+  EXPECT_TRUE(vo::distances_between(unknown).empty());
 }
 
 TEST(Tum, RoundTripsPosesAndHeadings) {
