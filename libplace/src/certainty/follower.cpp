@@ -25,8 +25,12 @@ constexpr double kBetweenObservations = 0.5;  // keyframes
 constexpr std::size_t kWindow = 5;            // keyframes to either side that are one place, as in search
 constexpr double kFound = 0.9;                // probability at which a walker who was not is on the route
 constexpr double kLost = 0.4;                 // below which one who was is not
-constexpr double kLeft = 0.5;              // of being off the route, at which one who was on it has left it
-constexpr double kLeastContrast = 0.2;     // share of the usual below which a picture shows nothing
+constexpr double kLeft = 0.5;           // of being off the route, at which one who was on it has left it
+constexpr double kLeastContrast = 0.2;  // share of the usual below which a picture shows nothing
+// The cost at which a place is as probable as none: one deviation below the mean, as in `search_path`, until
+// it is known what costs this walk has where it is on the route; then this share of them, so that a street
+// like the route's is told from it. Chosen on two walks with a detour, reported on others (tests/RESULTS.md).
+constexpr double kLeastEven = 1, kEvenShare = 0.55;
 constexpr double kBetweenKeyframes = 0.3;  // standard deviation of a place that a keyframe stands for
 
 /// Keyframes a second while the walker moved.
@@ -148,12 +152,18 @@ class Follower::Implementation {
   }
 
   void observe(const vo::Frame& frame, const vo::ImageStack& thumbnail) {
-    std::vector<float> enhanced = costs_.against(frame, thumbnail);
-    constexpr float kEven = 1, kSteepness = 0.5F, kFurthest = 6;  // as `search_path`
+    const std::vector<float> costs = costs_.against(frame, thumbnail);
+    constexpr float kSteepness = 0.5F, kFurthest = 6;  // as `search_path`
+    const auto even = static_cast<float>(std::max(kLeastEven, -kEvenShare * usual_cost_));
     const auto weight = static_cast<float>(first_ ? 1 : std::min(1.0, moved_));
-    for (float& value : enhanced)
-      value = -kSteepness * weight * (std::clamp(value, -kFurthest, kFurthest) + kEven);
-    filter_.observe(enhanced);
+    std::vector<float> log_ratio(costs.size());
+    for (std::size_t r = 0; r < costs.size(); ++r)
+      log_ratio[r] = -kSteepness * weight * (std::clamp(costs[r], -kFurthest, kFurthest) + even);
+    filter_.observe(log_ratio);
+    const PlaceEstimate now = filter_.estimate(kWindow);
+    if (now.probability < kFound) return;
+    constexpr double kNew = 0.05;  // an average over about twenty pictures
+    usual_cost_ = std::lerp(usual_cost_, static_cast<double>(costs[now.place]), kNew);
   }
 
   Position position(const vo::Frame& frame) {
@@ -223,6 +233,7 @@ class Follower::Implementation {
   bool first_ = true;
   double moved_ = 0;  // keyframes since the last observation
   double usual_contrast_ = 0;
+  double usual_cost_ = 0;  // at the walker's place, while it is known
   FollowState state_ = FollowState::kSearching;
   std::deque<Observed> observed_;  // from the one that the lag reaches back to
   std::optional<PlaceEstimate> lagged_;
