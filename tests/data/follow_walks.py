@@ -4,8 +4,8 @@
     RETRACE_DATA=... python3 tests/data/follow_walks.py [--routes 10] [--length-m 60]
 
 A drawn route is a street or a corridor in turn, by day; the walk on it is by night or among passers-by, at another speed, up
-to half a metre aside. Of every route: the whole walk, and, for every second one, a walk that begins a third of the way, leaves for
-30 m of another street and comes back where it left, and one that is carried 20 m on at the middle. Printed: metres walked until
+to half a metre aside. Of every route: the whole walk, and, for two of four, a walk that begins a third of the way along, leaves
+for 30 m of another street and comes back where it left, and one that is carried 20 m on at a third. Printed: metres walked until
 found; of the frames said to be on the route after that, the share within 2 m and the median error; metres until leaving and
 coming back are said; share of on-route metres that are called off the route; expected calibration error of the probability (to
 be within 2 m, ten bins), and share of errors within 1.64 standard deviations. Needs ffmpeg.
