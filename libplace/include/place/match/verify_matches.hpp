@@ -28,7 +28,7 @@ struct VerifyOptions {
 /// Metres need poses, of a survey or of odometry, at the matched keyframe and about it. All are relative to
 /// the reference, whose camera is taken to look where its poses head. `query_points`: of each match
 /// (`vo::pack_view_points`). Throws `std::invalid_argument` for another number of them or options out of
-/// range. About `places` times 2 ms for a match, in parallel.
+/// range. About `places` times 1.3 ms for a match, in parallel.
 void verify_matches(const Route& route, std::span<const Bytes> query_points, const VerifyOptions& options,
                     std::vector<Match>& matches);
 
