@@ -57,6 +57,8 @@ constexpr std::array kCommands{
                  declare_sweep},
     CommandEntry{"compare", "precision and recall of several runs of one walk, and how sure they are",
                  declare_compare},
+    CommandEntry{"video", "a video of a run: the query, and below it the place where it was found",
+                 declare_video},
     CommandEntry{"inspect", "show what is in a route database", declare_inspect},
     CommandEntry{"describe", "write the descriptors of a walk's keyframes, for other programs",
                  declare_describe},

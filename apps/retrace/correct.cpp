@@ -1,17 +1,14 @@
 #include "command.hpp"
 #include "run_files.hpp"
+#include "run_summary.hpp"
 
-#include <algorithm>
-#include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <place/match/match_io.hpp>
 #include <vo/base/error.hpp>
@@ -28,31 +25,6 @@ struct CorrectOptions {
   std::string odometry;
 };
 
-/// The run's summary; empty if there is none.
-nlohmann::json summary_of(const fs::path& folder) {
-  std::ifstream file(folder / "summary.json");
-  nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
-  return summary.is_object() ? summary : nlohmann::json::object();
-}
-
-/// When the walk began, where it is known.
-std::optional<double> start_utc_s(const nlohmann::json& summary) {
-  const auto start = summary.find("query_start_utc_s");
-  return start != summary.end() && start->is_number() ? std::optional(start->get<double>()) : std::nullopt;
-}
-
-/// The matches before which its recording was interrupted.
-std::vector<std::size_t> gaps_of(const nlohmann::json& summary, const std::vector<place::Match>& matches) {
-  std::vector<std::size_t> gaps;
-  const auto frames = summary.find("query_frames_after_gaps");
-  if (frames == summary.end() || !frames->is_array()) return gaps;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    const auto is_it = [&](const nlohmann::json& frame) { return frame == matches[i].query_frame; };
-    if (std::any_of(frames->begin(), frames->end(), is_it)) gaps.push_back(i);
-  }
-  return gaps;
-}
-
 void correct(const CorrectOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::is_directory(folder))
@@ -63,7 +35,7 @@ void correct(const CorrectOptions& options) {
   const fs::path path =
       options.odometry.empty() ? folder / "trajectory_odometry.tum" : fs::path(options.odometry);
   const vo::Trajectory trajectory = vo::read_tum(path);
-  const nlohmann::json summary = summary_of(folder);
+  const RunSummary summary = read_run_summary(folder);
   vo::Trajectory nodes;
   for (const place::Match& match : matches) {
     constexpr double kClock_s = 0.05;  // about a frame
@@ -78,7 +50,7 @@ void correct(const CorrectOptions& options) {
       place::query_trajectory(route, matches, nodes, gaps_of(summary, matches));
   if (!corrected.why_not.empty())
     throw vo::Error((folder / "matches.csv").string(), "gives no trajectory", corrected.why_not);
-  write_trajectory(corrected, route, matches, folder, start_utc_s(summary));
+  write_trajectory(corrected, route, matches, folder, summary.query_start_utc_s);
   fmt::print("{}: {} poses from {} matches; see {}\n", options.folder, corrected.corrected.poses.size(),
              corrected.fixes.size(), (folder / "trajectory.csv").string());
 }

@@ -1,0 +1,79 @@
+#include "run_recordings.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include <place/stage_options.hpp>
+#include <vo/base/error.hpp>
+#include <vo/io/camera_calibration.hpp>
+
+namespace retrace {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_it(const Recording& recording, const place::Traverse& traverse) {
+  try {
+    const auto source = vo::open_frame_source(recording.files, recording.options);
+    const std::optional<std::int64_t> frames = source->expected_frames();
+    const std::optional<vo::Frame> first = source->next();
+    constexpr std::int64_t kSlack = 2;  // frames by which a container may count otherwise
+    return first && first->image.cols == traverse.frame_width_px &&
+           first->image.rows == traverse.frame_height_px &&
+           (!frames || std::abs(*frames - traverse.frames) <= kSlack);
+  } catch (const vo::Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+TraverseFiles traverse_files(const std::vector<std::string>& given, const place::Route& route) {
+  TraverseFiles files;
+  for (const std::string& argument : given) {
+    if (route.traverses.size() == 1) {
+      files[route.traverses[0].name].push_back(argument);
+      continue;
+    }
+    const std::size_t equals = argument.find('=');
+    const std::string name = argument.substr(0, equals);
+    if (equals == std::string::npos ||
+        std::ranges::find(route.traverses, name, &place::Traverse::name) == route.traverses.end()) {
+      std::string names;
+      for (const place::Traverse& traverse : route.traverses)
+        names += (names.empty() ? "" : ", ") + traverse.name;
+      throw vo::Error("--reference", fmt::format("'{}' does not name a traverse", argument),
+                      "NAME=FILE, NAME being one of " + names);
+    }
+    files[name].push_back(argument.substr(equals + 1));
+  }
+  return files;
+}
+
+vo::FrameSourceOptions reading_of(const place::Settings& settings) {
+  place::Settings reading;
+  reading.frame_rate_hz = settings.frame_rate_hz;
+  reading.crop = settings.crop;
+  return place::stage_options(reading).walk.frames;
+}
+
+vo::Camera camera_of(const place::Settings& settings, int width_px, int height_px) {
+  constexpr double kUsualView_deg = 64.4;  // PVO 5.3
+  std::optional<vo::Camera> calibrated;
+  if (settings.camera) calibrated = vo::read_camera_calibration(*settings.camera);
+  return vo::camera_of_recording(calibrated, width_px, height_px, settings.fov_deg.value_or(kUsualView_deg));
+}
+
+std::optional<Recording> recording_near(const fs::path& route, const place::Traverse& traverse) {
+  for (const fs::path& folder : {fs::path(), route.parent_path()}) {
+    const fs::path file = folder / traverse.source;
+    if (traverse.source.empty() || !fs::exists(file)) continue;
+    Recording recording{{file.string()}, reading_of(traverse.settings), traverse.frames};
+    if (is_it(recording, traverse)) return recording;
+  }
+  return std::nullopt;
+}
+
+}  // namespace retrace
