@@ -54,8 +54,8 @@ bool holds(const pugi::xml_node& node, std::string_view name) {
 
 void add_point(FileTrack& track, const pugi::xml_node& node) {
   ++track.all;
-  const auto latitude = vo::parse_number(node.attribute("lat").value());
-  const auto longitude = vo::parse_number(node.attribute("lon").value());
+  const auto latitude = vo::parse_number(node.attribute("lat").value(), true);
+  const auto longitude = vo::parse_number(node.attribute("lon").value(), true);
   // Receivers write 0, 0 before they know where they are.
   const bool nowhere = latitude == 0.0 && longitude == 0.0;
   if (!latitude || !longitude || nowhere || !on_earth({*latitude, *longitude})) {

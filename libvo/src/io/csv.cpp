@@ -59,6 +59,12 @@ bool same_name(std::string_view a, std::string_view b) {
       a, b, [](unsigned char c, unsigned char d) { return std::tolower(c) == std::tolower(d); });
 }
 
+/// Whether a cell says that there is no value, as spreadsheets, R, pandas and Matlab write that.
+bool says_unknown(std::string_view cell) {
+  constexpr std::array<std::string_view, 7> kWords{"", "#n/a", "n/a", "na", "nan", "null", "-"};
+  return std::ranges::any_of(kWords, [&](std::string_view word) { return same_name(cell, word); });
+}
+
 bool all_empty(const std::vector<std::string>& cells) {
   return std::ranges::all_of(cells, [](const std::string& cell) { return cell.empty(); });
 }
@@ -166,6 +172,11 @@ std::string CsvTable::where(std::size_t row) const {
   return fmt::format("{}: line {}", path_, lines_.at(row));
 }
 
+std::string CsvTable::no_value(std::string_view column, std::size_t row) const {
+  const std::string& cell = cells_.at(row)[column_index(column)];
+  return cell.empty() ? fmt::format("{} is empty", column) : fmt::format("{} is '{}'", column, cell);
+}
+
 std::vector<std::string> CsvTable::text(std::string_view column) const {
   const std::size_t index = column_index(column);
   std::vector<std::string> values;
@@ -180,7 +191,7 @@ std::vector<std::optional<double>> CsvTable::optional_numbers(std::string_view c
   values.reserve(cells.size());
   for (std::size_t row = 0; row < cells.size(); ++row) {
     values.push_back(parse_number(cells[row], decimal_commas_));
-    if (!values.back() && !cells[row].empty()) {
+    if (!values.back() && !says_unknown(cells[row])) {
       throw Error(where(row), fmt::format("{} is '{}'", column, cells[row]), "a finite number");
     }
   }
@@ -198,7 +209,7 @@ std::vector<double> CsvTable::numbers(std::string_view column) const {
   std::vector<double> values;
   values.reserve(cells_.size());
   for (const std::optional<double>& value : optional_numbers(column)) {
-    if (!value) throw Error(where(values.size()), fmt::format("{} is empty", column), "a finite number");
+    if (!value) throw Error(where(values.size()), no_value(column, values.size()), "a finite number");
     values.push_back(*value);
   }
   return values;
@@ -221,7 +232,7 @@ std::vector<std::int64_t> CsvTable::indices(std::string_view column) const {
   std::vector<std::int64_t> values;
   values.reserve(cells_.size());
   for (const std::optional<std::int64_t>& value : optional_indices(column)) {
-    if (!value) throw Error(where(values.size()), fmt::format("{} is empty", column), "a whole number");
+    if (!value) throw Error(where(values.size()), no_value(column, values.size()), "a whole number");
     values.push_back(*value);
   }
   return values;

@@ -17,7 +17,8 @@ struct ClosedLoops {
 };
 
 /// Finds where a walk returns to places it has passed (PVO 6) and corrects its drift from that, at keyframes
-/// half a metre apart: `find_loops`, `correct_drift`. `motion`: of the walk, in metres, with a trajectory,
+/// half a metre apart: `find_loops`, `correct_drift`. Over a long gap of the recording (`vo::parts_walk`) the
+/// odometry counts for nothing. `motion`: of the walk, in metres, with a trajectory,
 /// else throws `std::invalid_argument`. O(keyframes^2).
 ClosedLoops close_loops(const vo::Walk& walk, const vo::WalkMotion& motion,
                         const LoopClosureOptions& options);

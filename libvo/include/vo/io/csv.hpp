@@ -39,13 +39,13 @@ class CsvTable {
   /// The column as finite numbers, with a decimal point, or a decimal comma where that cannot be mistaken
   /// (`parse_number`). Throws `vo::Error` naming file, line, column and cell if one is none.
   [[nodiscard]] std::vector<double> numbers(std::string_view column) const;
-  /// The same, with none for an empty cell.
+  /// The same, with none for a cell that is empty or says so: `NA`, `N/A`, `#N/A`, `NaN`, `null`, `-`.
   [[nodiscard]] std::vector<std::optional<double>> optional_numbers(std::string_view column) const;
   /// The same, with none for any cell that is no finite number.
   [[nodiscard]] std::vector<std::optional<double>> numbers_where_they_are(std::string_view column) const;
   /// The column as whole numbers >= 0. Throws as `numbers`.
   [[nodiscard]] std::vector<std::int64_t> indices(std::string_view column) const;
-  /// The same, with none for an empty cell.
+  /// The same, with none as in `optional_numbers`.
   [[nodiscard]] std::vector<std::optional<std::int64_t>> optional_indices(std::string_view column) const;
 
   /// "path: line N", for messages on a row.
@@ -53,6 +53,7 @@ class CsvTable {
 
  private:
   [[nodiscard]] std::size_t column_index(std::string_view column) const;
+  [[nodiscard]] std::string no_value(std::string_view column, std::size_t row) const;  ///< for messages
   void find_decimal_mark(char separator);
 
   std::string path_;

@@ -87,6 +87,10 @@ TEST(Track, ReadsGpxAsProgramsWriteIt) {
   reads(utf16);
 }
 
+TEST(Track, DegreesMayHaveDecimalCommas) {
+  expect_three(read(gpx("<trk>" + replaced(three(), "\"-0.25\"", "\"-0,25\"") + "</trk>")), "commas");
+}
+
 TEST(Track, LeavesOutBadPointsAndSaysSo) {
   const std::string bad = point(51.5, -0.25, "") +  // untimed
                           "<trkpt lat=\"\" lon=\"\"><time>2024-05-31T12:00:01Z</time></trkpt>" +

@@ -55,12 +55,22 @@ TEST_F(CameraCalibration, IsReadAsOpenCvWritesIt) {
   EXPECT_THAT(vo::read_camera_calibration(file(calibration(""))).distortion, testing::IsEmpty());
 }
 
+TEST_F(CameraCalibration, OpenCvMayLeaveTheSizeOut) {
+  const vo::Camera camera = vo::read_camera_calibration(
+      file("%YAML:1.0\n---\nK: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+           "   data: [ 610., 0., 423., 0., 612., 239., 0., 0., 1. ]\n"));
+  EXPECT_EQ(camera.width_px, 0);  // `camera_of_recording` takes the recording's
+  EXPECT_EQ(camera.height_px, 0);
+  EXPECT_EQ(camera.fx_px, 610);
+}
+
 TEST_F(CameraCalibration, SaysWhatIsMissing) {
   EXPECT_THAT(message((folder_.path() / "none.yml").string()), HasSubstr("does not exist"));
   EXPECT_THAT(message(file("not a calibration")), HasSubstr("is no YAML"));
   EXPECT_THAT(message(file("<opencv_storage><a>")), HasSubstr("is no XML"));
   EXPECT_THAT(message(file("")), HasSubstr("is no YAML"));
   EXPECT_THAT(message(file("%YAML:1.0\n---\nimage_width: 848\n")), HasSubstr("image_height"));
+  EXPECT_THAT(message(file("%YAML:1.0\n---\nimage_width: 0\n")), HasSubstr("camera_matrix"));
   EXPECT_THAT(message(file("%YAML:1.0\n---\nimage_width: 848\nimage_height: 480\n")),
               HasSubstr("camera_matrix"));
   EXPECT_THAT(

@@ -104,6 +104,20 @@ TEST(Csv, LeavesOutWhatItIsToldTo) {
   EXPECT_EQ(table.where(1), (folder / "t.csv").string() + ": line 4");
 }
 
+TEST(Csv, ACellMaySayThatThereIsNoValue) {
+  const TemporaryFolder folder;
+  for (const std::string cell : {"", "#N/A", "n/a", "NA", "NaN", "null", "-"}) {
+    const vo::CsvTable table = vo::CsvTable::read(folder.write("t.csv", "a,b\n1," + cell + "\n2,3\n"));
+    EXPECT_THAT(table.optional_numbers("b"), ElementsAre(std::nullopt, 3)) << cell;
+    EXPECT_THAT(table.optional_indices("b"), ElementsAre(std::nullopt, 3)) << cell;
+    EXPECT_THROW_WITH(table.numbers("b"), vo::Error, "t.csv: line 2: b is ");
+  }
+  for (const std::string cell : {"#DIV/0!", "none given", "--", "inf"}) {
+    const vo::CsvTable table = vo::CsvTable::read(folder.write("t.csv", "a,b\n1," + cell + "\n"));
+    EXPECT_THROW_WITH(table.optional_numbers("b"), vo::Error, "t.csv: line 2: b is '" + cell + "'");
+  }
+}
+
 TEST(Csv, NumbersAreWholeCells) {
   EXPECT_EQ(vo::parse_number(" +1.5e3 "), 1500);
   EXPECT_EQ(vo::parse_number("-0,5", true), -0.5);
