@@ -7,20 +7,20 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 since=${1:-$(git merge-base HEAD origin/main 2>/dev/null || git rev-parse HEAD)}
 [[ $(git rev-parse "$since") != $(git rev-parse HEAD) ]] || since=$(git rev-list --max-count=11 HEAD | tail -1)
-[[ -f build/release/compile_commands.json ]] || cmake --preset release -DRETRACE_BUILD_TESTS=ON >/dev/null
+cmake --preset dev -DRETRACE_BUILD_TESTS=OFF >/dev/null  # whose files are compiled one by one
 
 # Newest first; a header counts as its source.
 mapfile -t changed < <(git log --format= --name-only "$since..HEAD" -- 'libvo/*' 'libplace/*' 'apps/*' |
   sed -E 's,(libvo|libplace)/include/(vo|place)/(.*)\.hpp$,\1/src/\3.cpp,; s,\.hpp$,.cpp,' | grep '\.cpp$' | awk '!seen[$0]++')
 files=()
 for file in "${changed[@]}"; do
-  [[ -f $file ]] && grep -q "/$file\"" build/release/compile_commands.json && files+=("$file")
+  [[ -f $file ]] && grep -q "/$file\"" build/dev/compile_commands.json && files+=("$file")
 done
 echo "clang-tidy on ${#files[@]} files changed since $(git rev-parse --short "$since")"
 
 status=0
 printf '%s\n' "${files[@]}" | timeout "${RETRACE_TIDY_S:-240}" xargs -r -P "$(nproc)" -I{} bash -c \
-  'clang-tidy --quiet --warnings-as-errors="*" -p build/release "$1" 2>/dev/null && echo "clean: $1"' _ {} || status=$?
+  'clang-tidy --quiet --warnings-as-errors="*" -p build/dev "$1" 2>/dev/null && echo "clean: $1"' _ {} || status=$?
 case $status in
   0) ;;
   124) echo "time is up; the older changes were not checked" ;;

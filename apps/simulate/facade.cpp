@@ -26,7 +26,7 @@ struct Style {
   double lit_share;  // of windows, by night
 };
 
-Style draw_style(vo::Rng& rng) {
+Style draw_facade_style(vo::Rng& rng) {
   struct Tone {
     double hue, saturation, value;
   };
@@ -271,7 +271,7 @@ void paint_fittings(Canvas& canvas, const Style& style, vo::Rng& rng) {
 
 Painting paint_house(cv::Size texels, cv::Size2d extent, std::uint64_t seed, bool front) {
   vo::Rng rng(seed);
-  const Style style = draw_style(rng);
+  const Style style = draw_facade_style(rng);
   vo::Rng details = front ? rng.split() : vo::Rng(seed + 1).split();
   const cv::Rect2d all{0, 0, extent.width, extent.height};
   Canvas canvas(texels, extent, style.wall);

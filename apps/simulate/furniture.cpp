@@ -12,12 +12,13 @@
 namespace simulate {
 namespace {
 
-constexpr double kTexels_per_m = 48;
+constexpr double kFurnitureTexels_per_m = 48;
 
 // A surface of one colour with stains; good for posts, trunks and tops.
 Painter plain_painter(const Colour& colour, double stains, std::uint64_t seed) {
   return [=](cv::Size texels) {
-    Canvas canvas(texels, {texels.width / kTexels_per_m, texels.height / kTexels_per_m}, colour);
+    Canvas canvas(texels, {texels.width / kFurnitureTexels_per_m, texels.height / kFurnitureTexels_per_m},
+                  colour);
     canvas.stain({0, 0, 1e3, 1e3}, {0.4, 0.8}, stains, static_cast<std::uint32_t>(seed));
     return canvas.painting();
   };
@@ -30,7 +31,7 @@ Painter foliage_painter(cv::Size2d extent_m, double hue, std::uint64_t seed) {
     Canvas canvas(texels, extent_m, hsv({hue, 0.5, 0.3}));
     Painting& painting = canvas.painting();
     painting.alpha = cv::Mat1b::zeros(texels);
-    const double leaf = kTexels_per_m * 0.09;
+    const double leaf = kFurnitureTexels_per_m * 0.09;
     const int leaves = static_cast<int>(70 * extent_m.area());
     for (int i = 0; i < leaves; ++i) {
       const double angle = rng.uniform(0, 2 * std::numbers::pi), radius = std::sqrt(rng.uniform());
@@ -56,7 +57,7 @@ void add_foliage(const vo::Pose2& pose, double radius_m, double bottom_m, double
     const double angle = pose.heading_rad + 0.3 + i * std::numbers::pi / 3;
     const Eigen::Vector2d half = Eigen::Vector2d(std::cos(angle), -std::sin(angle)) * radius_m;
     const Eigen::Vector2d middle(pose.x_m, pose.y_m);
-    builder.add_wall(middle - half, middle + half, bottom_m, top_m, kTexels_per_m,
+    builder.add_wall(middle - half, middle + half, bottom_m, top_m, kFurnitureTexels_per_m,
                      foliage_painter({2 * radius_m, top_m - bottom_m}, hue, rng.bits()));
   }
 }
@@ -100,7 +101,7 @@ Painter car_painter(WorldBuilder::Face face, cv::Size2d extent_m, const Colour& 
 // A box with things painted on it: writing, shapes, dirt.
 void add_painted_box(const WorldBuilder::Box& box, const Colour& colour, int shapes, bool writing,
                      vo::Rng& rng, WorldBuilder& builder) {
-  builder.add_box(box, kTexels_per_m, [&](WorldBuilder::Face face) -> Painter {
+  builder.add_box(box, kFurnitureTexels_per_m, [&](WorldBuilder::Face face) -> Painter {
     const double width = face == WorldBuilder::Face::kEnd ? box.width_m : box.length_m;
     const cv::Size2d extent{face == WorldBuilder::Face::kTop ? box.width_m : width,
                             face == WorldBuilder::Face::kTop ? box.length_m : box.top_m - box.bottom_m};
@@ -129,7 +130,7 @@ void add_tree(const vo::Pose2& pose, const TreeSize& size, std::uint64_t seed, W
   const double thickness = rng.uniform(0.16, 0.3);
   const Colour brown = near(Colour(60, 75, 90), 20, rng);
   const Painter bark = plain_painter(brown, 0.35, rng.bits());
-  builder.add_box({pose, thickness, thickness, 0, trunk_m + 0.6 * crown_radius_m}, kTexels_per_m,
+  builder.add_box({pose, thickness, thickness, 0, trunk_m + 0.6 * crown_radius_m}, kFurnitureTexels_per_m,
                   [&](WorldBuilder::Face) { return bark; });
   add_foliage(pose, crown_radius_m, trunk_m, trunk_m + 2.2 * crown_radius_m, rng, builder);
 }
@@ -144,7 +145,7 @@ void add_car(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& builder) {
   const double roof = van ? rng.uniform(1.9, 2.2) : rng.uniform(1.38, 1.5);
   const double cabin = van ? length * 0.95 : length * rng.uniform(0.5, 0.62);
   const auto add = [&](const WorldBuilder::Box& box, bool is_cabin) {
-    builder.add_box(box, kTexels_per_m, [&](WorldBuilder::Face face) {
+    builder.add_box(box, kFurnitureTexels_per_m, [&](WorldBuilder::Face face) {
       const double across = face == WorldBuilder::Face::kSide ? box.length_m : box.width_m;
       const double down = face == WorldBuilder::Face::kTop ? box.length_m : box.top_m - box.bottom_m;
       return car_painter(face, {across, down}, body, is_cabin, rng.bits());
@@ -157,13 +158,14 @@ void add_car(const vo::Pose2& pose, std::uint64_t seed, WorldBuilder& builder) {
 void add_street_lamp(const vo::Pose2& pose, double height_m, const cv::Vec3f& bgr, std::uint64_t seed,
                      WorldBuilder& builder) {
   const Painter metal = plain_painter(Colour(70, 72, 70), 0.25, seed);
-  builder.add_box({pose, 0.12, 0.12, 0, height_m}, kTexels_per_m, [&](WorldBuilder::Face) { return metal; });
+  builder.add_box({pose, 0.12, 0.12, 0, height_m}, kFurnitureTexels_per_m,
+                  [&](WorldBuilder::Face) { return metal; });
   const Painter head = [](cv::Size texels) {
     Canvas canvas(texels, {0.4, 0.3}, Colour(200, 205, 205));
     canvas.glow({0, 0.06, 0.4, 0.24}, Colour(190, 235, 255));
     return canvas.painting();
   };
-  builder.add_box({pose, 0.4, 0.4, height_m, height_m + 0.3}, kTexels_per_m,
+  builder.add_box({pose, 0.4, 0.4, height_m, height_m + 0.3}, kFurnitureTexels_per_m,
                   [&](WorldBuilder::Face) { return head; });
   builder.add_lamp({{pose.x_m, pose.y_m, height_m}, bgr});
 }
@@ -221,7 +223,7 @@ void add_garden(const vo::Pose2& pose, double width_m, std::uint64_t seed, World
   vo::Rng rng(seed);
   const Colour green = hsv({rng.uniform(80, 120), 0.5, 0.35});
   const Painter hedge = plain_painter(green, 0.5, rng.bits());
-  builder.add_box({pose, width_m, 0.6, 0, rng.uniform(0.7, 1.4)}, kTexels_per_m,
+  builder.add_box({pose, width_m, 0.6, 0, rng.uniform(0.7, 1.4)}, kFurnitureTexels_per_m,
                   [&](WorldBuilder::Face) { return hedge; });
   const TreeSize size{rng.uniform(1.2, 2.2), rng.uniform(1.2, 2.2)};
   add_tree(pose, size, rng.bits(), builder);

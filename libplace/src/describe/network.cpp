@@ -24,7 +24,7 @@ namespace place {
 namespace {
 
 constexpr int kJpegQuality = 90;
-constexpr double kPriorQueries = 30;  // as for blocks
+constexpr double kNetworkPriorQueries = 30;  // as for blocks
 
 /// OpenCV prints errors on standard error before it throws them.
 class Quiet {
@@ -135,7 +135,7 @@ class Network final : public Descriptor {
   [[nodiscard]] DescriptorTraits traits() const override {
     return {.max_shift = options_.pool_columns / 4,
             .columns = options_.pool_columns,
-            .prior_queries = kPriorQueries,
+            .prior_queries = kNetworkPriorQueries,
             .metric = Metric::kCosine,
             .records_frames = true,
             .colour_width_px = options_.input_width};

@@ -7,13 +7,13 @@
 namespace place {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kHighest = std::numeric_limits<float>::infinity();
 
 float least_of(std::span<const float> row) {
   // Sixteen minima side by side, which the compiler vectorises; the least is the same in any order.
   constexpr std::size_t kSide = 16;
   std::array<float, kSide> least;
-  least.fill(kInfinity);
+  least.fill(kHighest);
   std::size_t i = 0;
   for (; i + kSide <= row.size(); i += kSide) {
     for (std::size_t j = 0; j < kSide; ++j) least[j] = row[i + j] < least[j] ? row[i + j] : least[j];
@@ -26,7 +26,7 @@ float least_of(std::span<const float> row) {
 
 RowMinimum row_minimum(std::span<const float> row) {
   const float least = least_of(row);
-  if (!(least < kInfinity)) return {row.size(), kInfinity};
+  if (!(least < kHighest)) return {row.size(), kHighest};
   return {static_cast<std::size_t>(std::ranges::find(row, least) - row.begin()), least};
 }
 

@@ -102,7 +102,7 @@ StretchBest SearchStretch::search(std::size_t query, float* costs, float* chunk_
         begin_ + chunk * kChunk + static_cast<std::size_t>(std::find(out, out + kChunk, least) - out);
     best_edge_ = weights;
   }
-  if (best.cost < kInfinity) best.line = line_of(best, factor);
+  if (best.cost < kUnreached) best.line = line_of(best, factor);
   return best;
 }
 
@@ -116,7 +116,7 @@ void SearchStretch::weigh_edges(std::size_t query) {
   weights_are_whole_ = plan_.last_term(query) - plan_.first_term(query) == plan_.options.length;
   for (Edge& edge : edges_) {
     edge.factors.assign(plan_.lines.size() * kChunk, 0.0F);
-    edge.terms.assign(plan_.lines.size() * kChunk, kInfinity);
+    edge.terms.assign(plan_.lines.size() * kChunk, kUnreached);
     for (std::size_t i = 0; i < plan_.lines.size() * kChunk; ++i) {
       const std::size_t reference = begin_ + edge.chunk * kChunk + i % kChunk;
       if (reference >= plan_.references) continue;

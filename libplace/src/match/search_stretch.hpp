@@ -15,7 +15,7 @@
 /// `SequenceSearcher` works on one stretch of the reference at a time.
 namespace place {
 
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+inline constexpr float kUnreached = std::numeric_limits<float>::infinity();
 inline constexpr std::size_t kChunk = kernels::kChunk;
 
 constexpr std::size_t chunks_of(std::size_t count) {
@@ -58,7 +58,7 @@ struct SearchPlan {
 /// The cheapest pair of one query on a stretch of the reference.
 struct StretchBest {
   std::size_t reference = 0;
-  float cost = kInfinity;
+  float cost = kUnreached;
   std::size_t line = 0;
 };
 

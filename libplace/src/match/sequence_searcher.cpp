@@ -58,12 +58,12 @@ class SequenceSearcher::Search {
     std::vector<SequenceMatch> matches(plan_.queries);
     for (std::size_t q = 0; q < matches.size(); ++q) {
       const Found& found = found_[q];
-      if (found.best.cost == kInfinity) continue;
+      if (found.best.cost == kUnreached) continue;
       const SearchLine& line = plan_.lines[found.best.line];
       matches[q] = {.reference = found.best.reference,
                     .slope = line.slope,
                     .cost = found.best.cost,
-                    .score = (found.elsewhere == kInfinity ? 0 : found.elsewhere) - found.best.cost,
+                    .score = (found.elsewhere == kUnreached ? 0 : found.elsewhere) - found.best.cost,
                     .terms = plan_.terms_inside(line, q, found.best.reference)};
     }
     return matches;
@@ -73,9 +73,9 @@ class SequenceSearcher::Search {
   /// The best of the parts searched so far for a query.
   struct Found {
     StretchBest best;
-    float elsewhere = kInfinity;     ///< the least cost outside the best one's window
-    std::vector<float> latest;       ///< costs of the last references, as many as a window has
-    float before_those = kInfinity;  ///< the least cost before those
+    float elsewhere = kUnreached;     ///< the least cost outside the best one's window
+    std::vector<float> latest;        ///< costs of the last references, as many as a window has
+    float before_those = kUnreached;  ///< the least cost before those
   };
 
   /// Rows past a query's own that its lines need.
@@ -122,7 +122,7 @@ class SequenceSearcher::Search {
         found.elsewhere = std::min(found.elsewhere, least_of(i, begin_, best.reference - window_));
     }
     const std::size_t after = std::max(begin_, found.best.reference + window_ + 1);
-    if (found.best.cost < kInfinity && after < searched_)
+    if (found.best.cost < kUnreached && after < searched_)
       found.elsewhere = std::min(found.elsewhere, least_of(i, after, searched_));
     if (searched_ == plan_.references) return;
     found.before_those =
@@ -132,7 +132,7 @@ class SequenceSearcher::Search {
   }
 
   static float least(std::span<const float> values) {
-    return values.empty() ? kInfinity : *std::ranges::min_element(values);
+    return values.empty() ? kUnreached : *std::ranges::min_element(values);
   }
 
   /// The least cost of references [begin, end) of the part.

@@ -125,7 +125,8 @@ Calibration opencv_or_ros(const Reader& file, const std::string& path) {
   c.height = file.number(first_of(file, {"image_height", "height"})).value_or(0);
   if ((c.width < 1) != (c.height < 1))
     throw Error(path, "has one of image_width and image_height", "both, or neither");
-  const std::vector<double> k = file.numbers(first_of(file, {"camera_matrix.data", "camera_matrix", "K.data", "K"}));
+  const std::vector<double> k =
+      file.numbers(first_of(file, {"camera_matrix.data", "camera_matrix", "K.data", "K"}));
   if (k.size() != 9) throw Error(path, "has no 3x3 camera_matrix", kForm);
   c.focal_and_centre = {k[0], k[4], k[2], k[5]};
   c.model = lower(file.text("distortion_model"));

@@ -12,7 +12,8 @@
 namespace vo {
 namespace {
 
-constexpr std::string_view kForms = "a video file, a folder of images, camera:N, rtsp://..., or - (Y4M)";
+constexpr std::string_view kRecordingForms =
+    "a video file, a folder of images, camera:N, rtsp://..., or - (Y4M)";
 
 std::string reason(int code) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
@@ -29,7 +30,7 @@ AVFormatContext* opened(const std::string& source) {
   AVDictionary* options = nullptr;
   const AVInputFormat* form = nullptr;
   std::string url = "file:" + source;
-  std::string expected(kForms), problem = "is no video that FFmpeg can read";
+  std::string expected(kRecordingForms), problem = "is no video that FFmpeg can read";
   if (source == "-") {
     url = "pipe:0";
     form = av_find_input_format("yuv4mpegpipe");
@@ -73,7 +74,7 @@ void PacketDecoder::open(int threads) {
   codec_.reset();
   format_.reset(opened(source_));
   const auto require = [&](bool fine) {
-    if (!fine) throw Error(source_, "is no video that FFmpeg can read", kForms);
+    if (!fine) throw Error(source_, "is no video that FFmpeg can read", kRecordingForms);
   };
   require(avformat_find_stream_info(format_.get(), nullptr) >= 0);
   const AVCodec* codec = nullptr;

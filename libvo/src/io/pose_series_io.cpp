@@ -19,7 +19,7 @@
 namespace vo {
 namespace {
 
-constexpr std::string_view kForms = "TUM's lines of 8 numbers, KITTI's of 12, or a CSV with a header";
+constexpr std::string_view kPoseForms = "TUM's lines of 8 numbers, KITTI's of 12, or a CSV with a header";
 
 /// Gives the poses of KITTI's form the times of their frames.
 void add_times(Reading& reading, const std::filesystem::path& path) {
@@ -102,7 +102,7 @@ void take_axes(PoseSeries& series, const std::optional<FoundAxes>& known, Trajec
 /// True if the first line that says something separates names by commas, semicolons or tabs; EuRoC has them
 /// in a comment.
 bool is_csv(const std::filesystem::path& path) {
-  for (const TextLine& line : read_text_lines(path, kForms)) {
+  for (const TextLine& line : read_text_lines(path, kPoseForms)) {
     const std::string_view text = trimmed(line.text);
     const bool separated = text.find_first_of(",;\t") != std::string_view::npos;
     if (text.empty()) continue;
@@ -126,7 +126,7 @@ PoseSeries read_pose_series(const std::filesystem::path& path, const PoseFileOpt
   if (is_csv(path)) {
     reading = read_pose_csv(path, known);
   } else {
-    const std::vector<NumberLine> lines = read_number_lines(path, kForms);
+    const std::vector<NumberLine> lines = read_number_lines(path, kPoseForms);
     const auto whole = std::ranges::find_if(lines, [](const NumberLine& line) {
       return !line.problem && (line.values.size() == kTumCells || line.values.size() == kKittiCells);
     });
@@ -138,8 +138,9 @@ PoseSeries read_pose_series(const std::filesystem::path& path, const PoseFileOpt
     add_times(reading, *options.kitti_times);
     timed = true;
   }
-  if (reading.lines == 0) throw Error(name, "has no pose", kForms);
-  if (2 * reading.left_out >= reading.lines) throw Error(reading.first_where, reading.first_problem, kForms);
+  if (reading.lines == 0) throw Error(name, "has no pose", kPoseForms);
+  if (2 * reading.left_out >= reading.lines)
+    throw Error(reading.first_where, reading.first_problem, kPoseForms);
 
   PoseSeries series{.source = name};
   if (timed) {

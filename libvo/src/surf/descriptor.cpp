@@ -13,7 +13,7 @@ constexpr int kOverlap = 2;               // samples that a subregion reaches in
 constexpr double kCellDeviation = 2.5;    // of a subregion's own weights, in scales
 constexpr double kSquareDeviation = 7.5;  // of the subregions' weights about the point, in scales
 
-kernels::DescriptorWeights make_weights() {
+kernels::DescriptorWeights descriptor_weights() {
   constexpr int kCell = kernels::kDescriptorSamples / kernels::kDescriptorCells;
   kernels::DescriptorWeights weights{};
   for (int i = 0; i < kernels::kDescriptorCells; ++i) {
@@ -35,7 +35,7 @@ kernels::DescriptorWeights make_weights() {
 void describe(const SmoothPyramid& pyramid, const Feature& point, std::span<float> out) {
   if (out.size() != 64 && out.size() != 128)
     throw std::invalid_argument("describe: room for 64 or 128 values expected");
-  static const kernels::DescriptorWeights weights = make_weights();
+  static const kernels::DescriptorWeights weights = descriptor_weights();
   const SmoothLevel& level = pyramid.level(point.scale_px);
   kernels::kernels().descriptor_sums(raster_of(level),
                                      grid_at(level, point, point.scale_px, point.orientation_rad), weights,

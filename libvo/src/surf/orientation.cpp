@@ -17,7 +17,7 @@ constexpr double kWindow_rad = 0.40;    // deviation of the window; that of Bay'
 constexpr double kRadiusDeviation = 3;  // of the weights, in scales
 constexpr int kCoarser = 3;             // half octaves of smoothing more than the descriptor's
 
-kernels::OrientationWeights make_weights() {
+kernels::OrientationWeights orientation_weights() {
   kernels::OrientationWeights weights{};
   for (int r = 0; r < kernels::kOrientationRows; ++r) {
     for (int c = 0; c < kernels::kOrientationRows; ++c) {
@@ -88,7 +88,7 @@ double climb(const Window& window, const kernels::OrientationMoments& moments, d
 }  // namespace
 
 float orientation(const SmoothPyramid& pyramid, const Feature& point) {
-  static const kernels::OrientationWeights weights = make_weights();
+  static const kernels::OrientationWeights weights = orientation_weights();
   const SmoothLevel& level = pyramid.level(point.scale_px, kCoarser);
   kernels::OrientationMoments moments;
   kernels::kernels().orientation_moments(raster_of(level), grid_at(level, point, point.scale_px, 0), weights,

@@ -11,7 +11,7 @@ namespace vo {
 namespace {
 
 constexpr float kFirstScale = 1.6F;  // the least of level 0
-constexpr int kBandRows = 90;        // of one task; small levels are one task, which starts no threads
+constexpr int kTaskRows = 90;        // of one task; small levels are one task, which starts no threads
 
 SmoothLevel make_level(int width, int height, int step_px) {
   // One column and row more, read with weight 0 by samples on the rim.
@@ -23,9 +23,9 @@ SmoothLevel make_level(int width, int height, int step_px) {
 /// Calls row(y) for every row, by bands.
 template <class Row>
 void for_rows(int height, Row row) {
-  parallel_for(static_cast<std::size_t>((height + kBandRows - 1) / kBandRows), [&](std::size_t band) {
-    const int begin = static_cast<int>(band) * kBandRows;
-    row(begin, std::min(begin + kBandRows, height));
+  parallel_for(static_cast<std::size_t>((height + kTaskRows - 1) / kTaskRows), [&](std::size_t band) {
+    const int begin = static_cast<int>(band) * kTaskRows;
+    row(begin, std::min(begin + kTaskRows, height));
   });
 }
 

@@ -7,7 +7,7 @@
 namespace vo {
 namespace {
 
-constexpr int kFar = std::numeric_limits<int>::max();
+constexpr int kNoDistance = std::numeric_limits<int>::max();
 
 int squared_distance(const std::int8_t* a, const std::int8_t* b) {
   int sum = 0;
@@ -20,7 +20,7 @@ int squared_distance(const std::int8_t* a, const std::int8_t* b) {
 
 /// The two nearest of a point.
 struct TwoNearest {
-  int first = kFar, second = kFar;
+  int first = kNoDistance, second = kNoDistance;
   std::size_t index = 0;
 
   void see(int distance, std::size_t i) {
@@ -57,13 +57,13 @@ std::vector<ViewMatch> match_views(const ViewPoints& from, const ViewPoints& to,
   }
   const double ratio = options.max_ratio * options.max_ratio;
   const auto stands_out = [&](const TwoNearest& nearest) {
-    return nearest.second == kFar ||
+    return nearest.second == kNoDistance ||
            (nearest.first < nearest.second && nearest.first <= ratio * nearest.second);
   };
   std::vector<ViewMatch> matches;
   for (std::size_t j = 0; j < to.size(); ++j) {
     const TwoNearest& nearest = of_to[j];
-    if (nearest.first == kFar || !stands_out(nearest)) continue;
+    if (nearest.first == kNoDistance || !stands_out(nearest)) continue;
     const TwoNearest& back = of_from[nearest.index];
     if (back.index == j && stands_out(back)) matches.push_back({nearest.index, j});
   }
