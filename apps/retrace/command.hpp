@@ -15,6 +15,6 @@ using Declare = std::function<void()>(Arguments&);
 
 Declare declare_build, declare_localise, declare_correct, declare_evaluate, declare_follow, declare_odometry,
     declare_evaluate_odometry, declare_sweep_odometry, declare_sweep, declare_compare, declare_inspect,
-    declare_describe, declare_simulate, declare_demo, declare_config, declare_video;
+    declare_describe, declare_simulate, declare_demo, declare_config, declare_video, declare_doctor;
 
 }  // namespace retrace

@@ -44,6 +44,8 @@ constexpr std::array kCommands{
     CommandEntry{"demo",
                  "draw a street by day and by night, and find the one walk on the other; needs no data",
                  declare_demo},
+    CommandEntry{"doctor", "look at a recording, and say whether it is fit to be a reference",
+                 declare_doctor},
     CommandEntry{"build", "make a route database of a walk, or add a traverse to one", declare_build},
     CommandEntry{"localise", "find a walk on a route: a position for every keyframe of it", declare_localise},
     CommandEntry{"follow", "say where on a route a walker is, frame by frame, as a line of JSON",

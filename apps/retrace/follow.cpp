@@ -73,6 +73,7 @@ bool is_live(const std::string& walk) {
 
 void follow(const FollowOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
+  check_not_swapped(options.walk, options.route);
   const place::Route route = place::read_route(options.route, {.view_points = false});
   place::Follower follower(route, options.settings, {.lag_s = options.lag_s});
   place::Announcer announcer(route);

@@ -48,6 +48,7 @@ void print_table(const LocaliseOptions& options, const vo::Walk& walk, const pla
 
 void localise(const LocaliseOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
+  check_not_swapped(options.walk.front(), options.route);
   const place::Route route =
       place::read_route(options.route, {.view_points = options.settings.verify.value_or(0) > 0});
   if (route.traverses.empty())

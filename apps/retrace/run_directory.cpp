@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <place/route/route_database.hpp>
 #include <vo/base/error.hpp>
 
 namespace retrace {
@@ -46,6 +47,13 @@ void prepare_run_directory(const fs::path& folder, const std::vector<std::string
 void check_writable(const fs::path& file) {
   if (fs::is_directory(file)) throw vo::Error(file.string(), "is a folder", "a file to write");
   check_writable_folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
+}
+
+void check_not_swapped(const std::string& walk, const std::string& route) {
+  if (!place::looks_like_route(walk) || place::looks_like_route(route)) return;
+  throw vo::Error(
+      walk, fmt::format("is a route database, given as the walk, and {} none, given as the route", route),
+      fmt::format("the two swapped: {} --route {}", route, walk));
 }
 
 }  // namespace retrace

@@ -16,4 +16,7 @@ void prepare_run_directory(const std::filesystem::path& folder, const std::vecto
 /// done.
 void check_writable(const std::filesystem::path& file);
 
+/// Throws `vo::Error` where the walk is a route database and the route is none: the two were swapped.
+void check_not_swapped(const std::string& walk, const std::string& route);
+
 }  // namespace retrace

@@ -1,5 +1,6 @@
 #include "place/place.hpp"
 
+#include "place/certainty/not_found.hpp"
 #include "place/match/verify_matches.hpp"
 #include "place/match/walk_gaps.hpp"
 #include "place/route/survey.hpp"
@@ -168,6 +169,8 @@ Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
   run.wrong_share = found.wrong_share;
   run.looked_at = found.looked_at;
   run.warnings = std::move(found.warnings);
+  if (const std::optional<std::string> warning = not_found(walk.source, run.matches))
+    run.warnings.push_back(*warning);
   if (options.verify > 0)
     verify_matches(route, run.sampled.view_points, {.places = options.verify}, run.matches);
   run.drift = corrected(route, walk, run, options);

@@ -358,6 +358,40 @@ class CliTest(unittest.TestCase):
             apart = statistics.mean(abs(a - b) for a, b in zip(blinking[query][96 * 14:], above[query][96 * 14:]))
             (self.assertLess if query // 15 % 2 == 1 else self.assertGreater)(apart, 8, query)
 
+    def test_the_doctor_says_what_a_recording_is_fit_for(self):
+        check("simulate", "--scene", "street", "--length-m", "15", "--seed", "3", "-o", self.folder / "walk")
+        walk, truth = self.folder / "walk" / "walk.mp4", rows(self.folder / "walk" / "truth.csv")
+        told = json.loads(check("doctor", walk, "--json"))
+        self.assertEqual(told["frames"], len(truth))
+        self.assertAlmostEqual(told["steps"], int(truth[-1]["steps"]), delta=1)
+        self.assertEqual({finding["check"]: finding["fitness"] for finding in told["findings"]}["gait"], "good")
+        self.assertIn("fit to be a reference", check("doctor", walk))
+        # The same walk between black bars, and a camera that sees one view.
+        barred = self.folder / "barred.mp4"
+        subprocess.run(["ffmpeg", "-v", "error", "-i", str(walk), "-vf", "pad=640:480:0:60", "-q:v", "3", str(barred)], check=True)
+        told = json.loads(check("doctor", barred, "--json"))
+        self.assertEqual(told["frame_size"], [640, 360])
+        self.assertEqual(told["fitness"], "with care")
+        self.assertIn("--crop", "".join(finding["text"] for finding in told["findings"]))
+        still = draw_walk(self.folder / "still", street(), [40] * 60)
+        shown = check("doctor", still)
+        self.assertIn("not fit to be a reference", shown.splitlines()[0])
+        self.assertIn("shows no motion", shown)
+        self.refused("doctor", self.folder / "none.mp4", says="does not exist")
+
+    def test_says_what_it_saw_where_a_walk_is_not_found(self):
+        # The wrong route, and the walk and the route swapped.
+        other = draw_walk(self.folder / "other", street(seed=9), positions([1.5] * 400))
+        run_folder = self.folder / "run"
+        done = run("localise", other, "--route", self.walks.route, "-o", run_folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("keyframes accepted", done.stderr)
+        self.assertIn("another route", done.stderr)
+        self.assertIn("retrace doctor", "".join(read_json(run_folder / "summary.json")["warnings"]))
+        self.assertNotIn("retrace doctor", "".join(read_json(self.walks.run / "summary.json")["warnings"]))
+        for command in (("localise", "-o", self.folder / "swapped"), ("follow",)):
+            self.refused(command[0], self.walks.route, "--route", self.walks.query, *command[1:], says="expected the two swapped")
+
     def test_refuses_videos_it_cannot_make(self):
         side = self.folder / "side.mp4"
         video_of_it = ("video", self.walks.run, "-o", side)

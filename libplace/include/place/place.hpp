@@ -65,8 +65,8 @@ struct Run {
   int lines = 0;               ///< distinct lines searched through each pair; 0 without lines
   ProbabilitySource probability_source = ProbabilitySource::kNone;  ///< see `RouteMatches`
   double wrong_share = 1, looked_at = 1;                            ///< see `RouteMatches`
-  std::vector<std::string> warnings;                                ///< of the search
-  QueryTrajectory drift;  ///< how the trajectory was corrected, or why not
+  std::vector<std::string> warnings;  ///< of the search, and where it hardly found the walk (`not_found`)
+  QueryTrajectory drift;              ///< how the trajectory was corrected, or why not
   /// The walk's odometry with its drift removed, in the route's coordinates: a pose for each keyframe, if the
   /// route has poses and the matches confirm it.
   std::optional<vo::Trajectory> trajectory;

@@ -5,6 +5,8 @@
 #include "route/sqlite.hpp"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -319,6 +321,15 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
       damaged(shown, "descriptors are missing");
   }
   return route;
+}
+
+bool looks_like_route(const std::filesystem::path& path) {
+  constexpr std::string_view kSqlite{"SQLite format 3\0", 16};  // https://www.sqlite.org/fileformat.html
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, kSqlite.size()> begin{};
+  return file.read(begin.data(), begin.size()) && std::string_view(begin.data(), begin.size()) == kSqlite;
 }
 
 void write_route(const std::filesystem::path& path, const Route& route) {

@@ -21,6 +21,9 @@ struct RouteReadOptions {
 /// not match its checksum). O(file).
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options = {});
 
+/// True if the file is a SQLite database, as routes are, by its first bytes. Nothing is thrown.
+bool looks_like_route(const std::filesystem::path& path);
+
 /// Writes a route, replacing the file at `path`, which is the old one or the new one at any moment. Equal
 /// routes give equal bytes. Throws `vo::Error` if it cannot be written, `std::invalid_argument` if a
 /// traverse's descriptors do not match its keyframes or the other traverses', or two traverses share a name.

@@ -14,6 +14,7 @@
 #include <place/route/route_database.hpp>
 #include <place/version.hpp>
 #include <vo/base/error.hpp>
+#include <vo/io/atomic_file.hpp>
 
 namespace {
 
@@ -387,6 +388,19 @@ TEST(RouteDatabase, RefusesTraversesThatDoNotFit) {
   route = example_route();
   std::get<place::ColumnStack>(route.traverses[1].descriptors[0]).channels = 10;
   refused(route);
+}
+
+TEST(RouteDatabase, LooksLikeARouteByItsFirstBytes) {
+  const TemporaryFolder folder;
+  const fs::path route = folder.path() / "route.db", other = folder.path() / "walk.mp4";
+  place::write_route(route, example_route());
+  vo::write_file(other, "SQLite format 2 and more");
+  EXPECT_TRUE(place::looks_like_route(route));
+  EXPECT_FALSE(place::looks_like_route(other));
+  vo::write_file(other, "SQL");
+  EXPECT_FALSE(place::looks_like_route(other));
+  EXPECT_FALSE(place::looks_like_route(folder.path()));
+  EXPECT_FALSE(place::looks_like_route(folder.path() / "none"));
 }
 
 }  // namespace
