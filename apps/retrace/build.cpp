@@ -50,14 +50,17 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
 void print(const BuildOptions& options, const place::Route& route, const place::AddedTraverse& added) {
   const place::Traverse& traverse = route.traverses[added.index];
   if (options.common.json) {
-    const nlohmann::ordered_json json{{"route", options.output},
-                                      {"traverse", traverse.name},
-                                      {"frames", traverse.frames},
-                                      {"duration_s", traverse.duration_s},
-                                      {"keyframes", traverse.keyframes.size()},
-                                      {"traverses", route.traverses.size()},
-                                      {"sampling_unit", route.unit},
-                                      {"relative_scale", added.scale}};
+    nlohmann::ordered_json json{{"route", options.output},
+                                {"traverse", traverse.name},
+                                {"frames", traverse.frames},
+                                {"duration_s", traverse.duration_s},
+                                {"keyframes", traverse.keyframes.size()},
+                                {"traverses", route.traverses.size()},
+                                {"sampling_unit", route.unit},
+                                {"relative_scale", added.scale},
+                                {"motion", *route.settings.motion},
+                                {"gait_share", nullptr}};
+    if (added.gait_share) json["gait_share"] = *added.gait_share;
     fmt::print("{}\n", json.dump(2));
     return;
   }
@@ -67,6 +70,9 @@ void print(const BuildOptions& options, const place::Route& route, const place::
   if (last.distance_m)
     fmt::print(", {:.1f} m surveyed", *last.distance_m - traverse.keyframes.front().distance_m.value_or(0));
   fmt::print("; {} traverse{} in all\n", route.traverses.size(), route.traverses.size() == 1 ? "" : "s");
+  if (added.gait_share)
+    fmt::print("motion: {}, as {:.0f} % of the walk's motion is gait\n",
+               route.settings.motion == "steps" ? "steps" : "sad (alignment error)", 100 * *added.gait_share);
 }
 
 void build(BuildOptions& options) {

@@ -13,6 +13,7 @@
 
 #include <place/describe/npy.hpp>
 #include <place/place.hpp>
+#include <place/route/motion_choice.hpp>
 #include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
@@ -58,7 +59,7 @@ void describe(const DescribeOptions& options) {
                                              : place::read_route(options.route, {.previews = false});
   place::Settings given = options.settings;
   given.preview_width_px = 0;
-  const place::Settings settings = place::resolve(
+  place::Settings settings = place::resolve(
       given, {.purpose = place::Purpose::kRoute, .route = options.route.empty() ? nullptr : &route.settings});
   vo::Walk walk;
   {
@@ -66,6 +67,9 @@ void describe(const DescribeOptions& options) {
     walk = place::read(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
+  if (settings.motion == "auto")
+    settings = place::choose_motion(settings, walk, place::stage_options(settings).sampling.motion.pedestrian)
+                   .settings;
   const place::SampledWalk sampled =
       place::sample_walk(walk, place::stage_options(settings).sampling, &route);
   for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);

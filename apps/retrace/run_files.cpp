@@ -96,6 +96,7 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
                     {"accept_probability", nullptr},
                     {"sequence_length", run.sequence_length},
                     {"lines", run.lines},
+                    {"motion", *run.settings.motion},
                     {"sampling_unit", run.sampled.unit},
                     {"relative_scale", run.sampled.scale},
                     {"relative_scale_gain", run.sampled.scale_gain},

@@ -3,6 +3,7 @@
 #include "place/certainty/not_found.hpp"
 #include "place/match/verify_matches.hpp"
 #include "place/match/walk_gaps.hpp"
+#include "place/route/motion_choice.hpp"
 #include "place/route/survey.hpp"
 #include "place/stage_options.hpp"
 #include "place/trajectory/pose_fixes.hpp"
@@ -85,6 +86,21 @@ QueryTrajectory corrected(const Route& route, const vo::Walk& walk, const Run& r
   return none;
 }
 
+/// A route's settings with those of motion and odometry that its first walk settled.
+Settings with_motion_of(Settings route, const Settings& walk) {
+  for (const Setting& setting : settings_table()) {
+    if (setting.of_route == OfRoute::kNo) continue;
+    if (setting.group != SettingGroup::kMotion && setting.group != SettingGroup::kOdometry) continue;
+    const std::optional<std::string> value = text_of(walk, setting);
+    if (value) {
+      set(route, setting, *value);
+    } else {
+      reset(route, setting);
+    }
+  }
+  return route;
+}
+
 vo::Trajectory poses_of(const CorrectedWalk& walk) {
   vo::Trajectory trajectory;
   for (const UncertainPose& pose : walk.poses) trajectory.push_back({pose.time_s, pose.pose});
@@ -127,9 +143,16 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
   const auto old = std::ranges::find(traverses, name, &Traverse::name);
   if (old != traverses.end() && !replace)
     throw vo::Error(name, "is a traverse of the route already", "another name");
-  const Settings resolved = resolve(settings, on(route, Purpose::kRoute));
-  const StageOptions options = stage_options(resolved);
+  Settings resolved = resolve(settings, on(route, Purpose::kRoute));
+  StageOptions options = stage_options(resolved);
   check_read_with(options, walk);
+  std::optional<double> gait_share;
+  if (resolved.motion == "auto") {
+    const MotionChoice choice = choose_motion(resolved, walk, options.sampling.motion.pedestrian);
+    resolved = choice.settings;
+    options = stage_options(resolved);
+    gait_share = choice.gait_share;
+  }
   // A route's unit comes from its first traverse; a walk that replaces it is tied to the replaced one.
   const SampledWalk sampled = sample_walk(walk, options.sampling, &route);
   if (sampled.frames.size() < 2)
@@ -143,8 +166,10 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
     route.metric = sampled.metric;
     route.unit = sampled.unit;
     route.learned = sampled.learned;
+    if (gait_share) route.settings = with_motion_of(route.settings, resolved);
   }
-  AddedTraverse added{static_cast<std::size_t>(old - traverses.begin()), sampled.scale, sampled.warnings};
+  AddedTraverse added{static_cast<std::size_t>(old - traverses.begin()), sampled.scale, gait_share,
+                      sampled.warnings};
   if (old == traverses.end()) {
     traverses.push_back(std::move(traverse));
   } else {

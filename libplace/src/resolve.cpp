@@ -19,6 +19,7 @@ bool is(const std::optional<std::string>& value, std::string_view what) {
 /// A copy with the settings that a walk takes from its route.
 Settings with_route(Settings settings, const Settings& route) {
   const bool density_given = settings.sampling_n || settings.spacing_m;
+  if (is(settings.motion, "auto") && route.motion) settings.motion = route.motion;
   for (const Setting& setting : settings_table()) {
     if (setting.of_route == OfRoute::kNo) continue;
     const std::optional<std::string> mine = text_of(settings, setting), routes = text_of(route, setting);
@@ -73,7 +74,7 @@ bool matters(const Settings& settings, const Setting& setting, const ResolveCont
 
 /// Odometry uses steps, with or without visual odometry.
 void choose_odometry(Settings& settings) {
-  if (!settings.motion) settings.motion = "hybrid";
+  if (!settings.motion || is(settings.motion, "auto")) settings.motion = "hybrid";
   if (!is(settings.motion, "hybrid") && !is(settings.motion, "steps"))
     throw vo::Error("motion", fmt::format("is {}", *settings.motion), "hybrid or steps for odometry");
 }
@@ -83,7 +84,8 @@ void choose_density(Settings& settings, const Settings& given) {
   if (is(settings.motion, "none")) return;
   const bool surely_metric = is(settings.motion, "steps");
   const bool metric_file = is(settings.motion, "file") && !is(given.motion_file_unit, "none");
-  const bool may_be_metric = surely_metric || is(settings.motion, "hybrid") || metric_file;
+  const bool may_be_metric =
+      surely_metric || is(settings.motion, "hybrid") || is(settings.motion, "auto") || metric_file;
   const bool only_spacing = given.spacing_m && !given.sampling_n;
   if (may_be_metric && !settings.spacing_m && !settings.sampling_n) settings.spacing_m = kUsualSpacing_m;
   if (!surely_metric && !only_spacing && !settings.sampling_n) settings.sampling_n = kUsualN;
@@ -110,7 +112,8 @@ void check_together(const Settings& settings) {
 
 bool follows_steps(const Settings& settings, const ResolveContext& context) {
   if (context.purpose == Purpose::kOdometry) return true;
-  if (is(settings.motion, "steps") || is(settings.motion, "hybrid")) return true;
+  for (const char* const by_steps : {"steps", "hybrid", "auto"})
+    if (is(settings.motion, by_steps)) return true;
   return context.purpose == Purpose::kLocalise && context.route_has_poses &&
          settings.correct_drift.value_or(true);
 }

@@ -135,6 +135,7 @@ void put_motion(const Settings& s, StageOptions& options) {
              {{"none", vo::MotionSource::kNone},
               {"sad", vo::MotionSource::kSad},
               {"steps", vo::MotionSource::kSteps},
+              {"auto", vo::MotionSource::kSteps},  // keeps what `choose_motion` needs
               {"hybrid", vo::MotionSource::kHybrid},
               {"vo", vo::MotionSource::kVisualOdometry},
               {"vo-sad", vo::MotionSource::kHybridAsPublished},

@@ -680,6 +680,20 @@ class CliTest(unittest.TestCase):
             for file in ("matches.csv", "config.toml", "trajectory.tum"):
                 self.assertEqual((self.folder / "plain" / file).read_bytes(), (self.folder / "config" / file).read_bytes(), file)
 
+    def test_automatic_motion_is_alignment_error_where_no_gait_shows(self):
+        route, run_folder = self.folder / "auto.db", self.folder / "run"
+        said = json.loads(check("build", self.walks.reference, "-o", route, "--truth", self.walks.reference_truth,
+                                "--motion", "auto", "--json"))
+        self.assertEqual((said["motion"], said["gait_share"]), ("sad", 0))
+        self.assertIn("motion: sad", check("build", self.walks.reference, "-o", self.folder / "b.db", "--motion", "auto"))
+        check("localise", self.walks.query, "--route", route, "-o", run_folder, "--motion", "auto")
+        self.assertEqual(read_json(run_folder / "summary.json")["motion"], "sad")
+        self.assertEqual((run_folder / "matches.csv").read_bytes(), (self.walks.run / "matches.csv").read_bytes())
+        said = check("describe", self.walks.reference, "-o", self.folder / "a.npy", "--motion", "auto")
+        self.assertIn("keyframes", said)
+        self.refused("build", self.walks.reference, "-o", self.folder / "c.db", "--motion", "auto", "--spacing-m", 1,
+                     says="shows no steps")
+
     def test_two_builds_at_once_lose_no_walk(self):
         route = self.folder / "both.db"
         builds = [subprocess.Popen([RETRACE, "build", str(self.walks.reference), "-o", str(route), "--name", name],

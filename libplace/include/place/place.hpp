@@ -45,13 +45,15 @@ vo::Walk read(std::span<const std::string> sources, const Route& route, const Se
 struct AddedTraverse {
   std::size_t index = 0;              ///< in the route's traverses
   double scale = 1;                   ///< see `SampledWalk::scale`
+  std::optional<double> gait_share;   ///< see `MotionChoice`, where motion was auto
   std::vector<std::string> warnings;  ///< what a user should know about its motion and keyframes
 };
 
-/// Samples a walk and adds it to the route's traverses. The first one gives the route its unit. Without a
-/// survey it has the poses of its own odometry, if any. `replace`: replaces a traverse of the same name,
-/// which is otherwise refused. Throws `vo::Error` naming the walk if it gives only one keyframe or shows no
-/// motion; `std::invalid_argument` for a walk that was read with other settings.
+/// Samples a walk and adds it to the route's traverses. The first one gives the route its unit, and with
+/// `motion auto` its motion (`choose_motion`), which the route's settings then name. Without a survey it has
+/// the poses of its own odometry, if any. `replace`: replaces a traverse of the same name, which is otherwise
+/// refused. Throws `vo::Error` naming the walk if it gives only one keyframe or shows no motion;
+/// `std::invalid_argument` for a walk that was read with other settings.
 AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
                   const std::optional<Survey>& survey = {}, const Settings& settings = {},
                   bool replace = false);

@@ -26,7 +26,9 @@ struct ResolveContext {
 /// - Values are in range (`check_ranges`).
 /// - `OfRoute::kFixed` settings are the route's; another value is refused. Of `sampling-n` and `spacing-m`
 ///   the route's are used only if neither was given: each sets the density of keyframes.
-/// - A query keeps the route's motion, or has none; another motion has another unit and is refused.
+/// - A query keeps the route's motion, or has none; another motion has another unit and is refused. `motion
+///   auto` is the route's there; of a new route it stays until its first walk is added (`choose_motion`); of
+///   odometry it is hybrid.
 /// - A given setting without effect is refused (`has_effect`). Settings in groups that the purpose does not
 ///   use are ignored, so that one file of settings serves all commands; those of odometry have an effect if
 ///   steps are tracked.

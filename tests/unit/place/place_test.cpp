@@ -136,6 +136,22 @@ TEST_F(PlaceTest, ATraverseIsReplacedOnlyIfAsked) {
   EXPECT_EQ(place::add(route, "evening", day_.walk).index, 1U);
 }
 
+TEST_F(PlaceTest, AnAutomaticMotionIsSettledByTheFirstWalk) {
+  Settings settings;
+  settings.motion = "auto";
+  place::Route route = place::new_route(merged(settings, by_thumbnails()));
+  EXPECT_EQ(route.settings.motion, "auto");
+  EXPECT_THROW(place::add(route, "day", day_.walk), std::invalid_argument);  // no points were tracked
+  EXPECT_EQ(route.settings.motion, "auto");
+  vo::Walk day = day_.walk;
+  day.tracked.resize(day.frames());  // a wall without points to track
+  EXPECT_EQ(place::add(route, "day", day).gait_share, 0);
+  EXPECT_EQ(route.settings, place::new_route(merged(by_thumbnails(), route.settings)).settings);
+  EXPECT_EQ(route.settings.motion, "sad");
+  EXPECT_FALSE(place::add(route, "evening", night_.walk).gait_share);
+  EXPECT_EQ(place::localise(route, night_.walk, settings).settings.motion, "sad");
+}
+
 TEST_F(PlaceTest, RefusesWalksThatWereReadWithOtherSettings) {
   Settings settings;
   settings.thumbnail_width = 32;

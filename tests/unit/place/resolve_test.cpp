@@ -66,7 +66,8 @@ TEST(Resolve, PointsAreSeenThroughACamera) {
 }
 
 TEST(Resolve, AgainChangesNothing) {
-  std::vector<Settings> all(8);
+  std::vector<Settings> all(9);
+  all[8].motion = "auto";
   all[1].motion = "steps";
   all[2].motion = "hybrid";
   all[3].motion = "hybrid";
@@ -293,6 +294,24 @@ TEST(Resolve, OdometryIsByStepsOrHybrid) {
   EXPECT_FALSE(place::resolve(settings, kOdometry).spacing_m);  // no keyframes are made
   settings.motion = "sad";
   expect_refused(settings, kOdometry, "motion: is sad; expected hybrid or steps");
+}
+
+TEST(Resolve, AutomaticMotionIsTheRoutesOnARoute) {
+  Settings automatic;
+  automatic.motion = "auto";
+  const Settings resolved = place::resolve(automatic, kRoute);
+  EXPECT_EQ(resolved.motion, "auto");  // until a walk is seen
+  EXPECT_EQ(resolved.spacing_m, 0.85);
+  EXPECT_EQ(resolved.sampling_n, 6);
+  EXPECT_EQ(resolved.step_length, 0.7);  // steps are followed, to see whether there are any
+  EXPECT_TRUE(place::stage_options(resolved).walk.track_features);
+  EXPECT_EQ(place::resolve(automatic, kOdometry).motion, "hybrid");
+  for (const char* const motion : {"steps", "sad", "none"}) {
+    Settings built;
+    built.motion = motion;
+    const Settings route = route_of(built);
+    EXPECT_EQ(place::resolve(automatic, {.route = &route}), place::resolve({}, {.route = &route})) << motion;
+  }
 }
 
 TEST(StageOptions, APartOfThePicturesAndAMask) {

@@ -99,7 +99,7 @@ TEST(Settings, SayWhatWasWrong) {
   refused("spacing-m", "nan", "spacing-m: is 'nan'; expected a number above 0");
   refused("spacing-m", "inf", "spacing-m");
   refused("tie-scale", "yes", "tie-scale: is 'yes'; expected true or false");
-  refused("motion", "sads", "motion: is 'sads'; expected one of sad, steps");
+  refused("motion", "sads", "motion: is 'sads'; expected one of auto, sad, steps");
   refused("motion", "sad|steps", "motion: is 'sad|steps'");
   refused("motion-file", "", "motion-file: is ''; expected a value");
   EXPECT_EQ(settings, Settings{});
