@@ -248,7 +248,7 @@ constexpr std::array kTable{
             .least = 1,
             .most = 1000000,
             .when = "motion=none",
-            .description = "frames between keyframes [SSS 4: vanilla]",
+            .description = "frames between keyframes [SSS 3.4: vanilla]",
             .everyday = true},
     Setting{.name = "spacing-m",
             .field = &Settings::spacing_m,

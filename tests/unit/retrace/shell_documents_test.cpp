@@ -64,7 +64,7 @@ TEST_F(ShellDocuments, ZshNamesFlagsWithDescriptionsThatDoNotEndTheSpecification
   EXPECT_THAT(script, HasSubstr("#compdef retrace"));
   EXPECT_THAT(script, HasSubstr("'build:make a route s database'"));
   EXPECT_THAT(script, HasSubstr("'--output[a file \\[of  routes \\: all\\]]:value:_files'"));
-  EXPECT_THAT(script, HasSubstr(":value:(sad steps"));
+  EXPECT_THAT(script, HasSubstr(":value:(auto sad steps"));
 }
 
 TEST_F(ShellDocuments, AManualPageListsArgumentsAndOptions) {
