@@ -158,6 +158,7 @@ int run(int argc, char** argv) {
   describe(documented);
   const std::deque<Declared> documented_commands = declare_all(documented, true);
   add_documents(root, documented);
+  add_documents(documented, documented);
 
   try {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

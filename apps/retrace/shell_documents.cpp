@@ -91,7 +91,7 @@ std::string bash_completion(const CLI::App& root) {
 _retrace() {{
   local current="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD-1]}}" command="${{COMP_WORDS[1]}}" words=''
   if [[ $COMP_CWORD -eq 1 ]]; then
-    COMPREPLY=($(compgen -W '{} completion manual --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W '{} --help --version' -- "$current"))
     return
   fi
   case "$command $before" in
@@ -166,7 +166,7 @@ std::string manual_page(const CLI::App& root, const std::string& command) {
   std::string name = command;
   std::ranges::transform(name, name.begin(), [](char c) { return static_cast<char>(std::toupper(c)); });
   std::string page = fmt::format(
-      ".TH RETRACE\\-{} 1 \"\" \"retrace {}\"\n.SH NAME\nretrace {} \\- {}\n.SH SYNOPSIS\n.B retrace {}\n",
+      ".TH RETRACE\\-{} 1 \"\" \"retrace {}\"\n.SH NAME\nretrace\\-{} \\- {}\n.SH SYNOPSIS\n.B retrace {}\n",
       roff(name), place::kVersion, roff(command), roff(app.get_description()), roff(command));
   std::string positional, flags;
   for (const CLI::Option* option : options_of(app)) {

@@ -73,6 +73,7 @@ TEST_F(ShellDocuments, AManualPageListsArgumentsAndOptions) {
   EXPECT_THAT(page, HasSubstr(".I walk\na video"));
   EXPECT_THAT(page, HasSubstr(".B \\-\\-every \\fIINT\\fR\nframes between keyframes"));
   EXPECT_THAT(page, HasSubstr("[1]"));
+  EXPECT_THAT(page, HasSubstr(".SH NAME\nretrace\\-build \\- "));  // as `whatis` reads it
   EXPECT_THAT(retrace::manual_page(root_, ""), HasSubstr(".B build\nmake a route's database"));
   EXPECT_THROW_WITH(retrace::manual_page(root_, "biuld"), vo::Error, "biuld: is no command");
 }

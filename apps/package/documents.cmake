@@ -1,0 +1,40 @@
+# Writes the manual, completions and changelog that are installed, as the program gives them.
+#   cmake -DRETRACE=<program> -DFOLDER=<folder to write> -DCHANGELOG=<CHANGELOG.md> -P documents.cmake
+function(write_output file)
+  execute_process(COMMAND ${RETRACE} ${ARGN} OUTPUT_FILE ${file} RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "failed: ${RETRACE} ${ARGN}")
+  endif()
+endfunction()
+
+function(compress file)
+  execute_process(COMMAND gzip -9nf ${file} RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "gzip failed on ${file}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER}/man1)
+write_output(${FOLDER}/retrace completion bash)
+write_output(${FOLDER}/_retrace completion zsh)
+write_output(${FOLDER}/man1/retrace.1 manual)
+compress(${FOLDER}/man1/retrace.1)
+
+# The commands are those that its help lists.
+execute_process(COMMAND ${RETRACE} --help OUTPUT_VARIABLE help RESULT_VARIABLE failed)
+string(REPLACE ";" "," help "${help}")
+string(REGEX REPLACE ".*\nSubcommands:\n" "" commands "${help}")
+string(REGEX REPLACE "\n\n.*" "\n" commands "${commands}")
+string(REGEX MATCHALL "  [a-z][a-z-]+  [^\n]*\n" commands "${commands}")
+if(failed OR NOT commands)
+  message(FATAL_ERROR "${RETRACE} --help lists no commands")
+endif()
+foreach(line IN LISTS commands)
+  string(REGEX REPLACE "^  ([a-z-]+) .*" "\\1" command "${line}")
+  write_output(${FOLDER}/man1/retrace-${command}.1 manual ${command})
+  compress(${FOLDER}/man1/retrace-${command}.1)
+endforeach()
+
+configure_file(${CHANGELOG} ${FOLDER}/changelog COPYONLY)
+compress(${FOLDER}/changelog)
