@@ -38,6 +38,10 @@ Argument& Argument::required() {
   option_->required();
   return *this;
 }
+Argument& Argument::optional() {
+  option_->required(false);
+  return *this;
+}
 Argument& Argument::positive() {
   option_->check(CLI::PositiveNumber);
   return *this;

@@ -28,6 +28,7 @@ class Argument {
   explicit Argument(CLI::Option* option) : option_(option) {}
 
   Argument& required();
+  Argument& optional();      ///< of a positional one, which is required otherwise
   Argument& positive();      ///< a number above 0
   Argument& non_negative();  ///< a number of at least 0
   Argument& range(double least, double most);

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "import_route.hpp"
 #include "progress_bar.hpp"
 #include "run_directory.hpp"
 #include "survey_files.hpp"
@@ -29,6 +30,7 @@ struct BuildOptions {
   std::string output;
   std::string name;
   SurveyFiles survey;
+  std::string import;
 };
 
 /// The default name of the traverse: the recording's, without folders and extension.
@@ -76,6 +78,15 @@ void print(const BuildOptions& options, const place::Route& route, const place::
 }
 
 void build(BuildOptions& options) {
+  if (!options.import.empty()) {
+    if (!options.walk.empty() || !options.name.empty() || options.settings != place::Settings{} ||
+        options.survey != SurveyFiles{})
+      throw vo::Error("--import", "leaves no choice of a walk, a name, a survey or settings",
+                      "--output alone: all else is in the folder");
+    return import_route(options.import, options.output, options.common);
+  }
+  if (options.walk.empty())
+    throw vo::Error("walk", "is missing", std::string(kWalkArgument) + ", or --import");
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_writable(options.output);
   if (options.name.empty()) options.name = default_name(options.walk.front());
@@ -113,7 +124,9 @@ void build(BuildOptions& options) {
 
 std::function<void()> declare_build(Arguments& arguments) {
   auto options = std::make_shared<BuildOptions>();
-  arguments.positional("walk", options->walk, kWalkArgument);
+  arguments.positional("walk", options->walk, kWalkArgument).optional();
+  arguments.option("--import", options->import,
+                   "instead of a walk: a folder written by `retrace inspect --export` [none]");
   arguments.option("-o,--output", options->output, "route database to create or add to").required();
   arguments.option("--name", options->name, "name of the traverse [the recording's]");
   declare_survey(arguments, options->survey);

@@ -18,6 +18,8 @@ struct SurveyFiles {
   std::string track;
   std::string track_name;
   std::optional<double> trajectory_start_s, track_start_s;
+
+  bool operator==(const SurveyFiles&) const = default;
 };
 
 void declare_survey(Arguments& arguments, SurveyFiles& files);

@@ -392,6 +392,24 @@ class CliTest(unittest.TestCase):
         for command in (("localise", "-o", self.folder / "swapped"), ("follow",)):
             self.refused(command[0], self.walks.route, "--route", self.walks.query, *command[1:], says="expected the two swapped")
 
+    def test_a_route_goes_through_a_folder_and_back(self):
+        folder, back = self.folder / "folder", self.folder / "back.db"
+        check("inspect", self.walks.route, "--export", folder)
+        keyframes = json.loads(check("inspect", self.walks.route, "--json"))["traverses"][0]["keyframe"]
+        written = rows(folder / "traverse-1" / "keyframes.csv")
+        self.assertEqual([int(row["frame"]) for row in written], [keyframe["frame"] for keyframe in keyframes])
+        self.assertEqual([float(row["distance_m"]) for row in written], [keyframe["distance_m"] for keyframe in keyframes])
+        self.assertEqual(len(list((folder / "traverse-1").glob("preview-*.jpg"))), len(written))
+        self.assertIn("1 traverse", check("build", "--import", folder, "-o", back))
+        self.assertEqual(back.read_bytes(), self.walks.route.read_bytes())
+        self.refused("inspect", self.walks.route, "--export", folder, says="is there already")
+        self.refused("build", "--import", folder, "-o", back, says="--force")
+        self.refused("build", "--import", folder, "-o", self.folder / "new.db", "--every", "3", "--motion", "none",
+                     says="--import: leaves no choice")
+        self.refused("build", "-o", self.folder / "new.db", says="walk: is missing")
+        (folder / "traverse-1" / "descriptors-1.npy").unlink()
+        self.refused("build", "--import", folder, "-o", self.folder / "new.db", says="descriptors-1.npy: cannot be read")
+
     def test_refuses_videos_it_cannot_make(self):
         side = self.folder / "side.mp4"
         video_of_it = ("video", self.walks.run, "-o", side)

@@ -22,7 +22,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in the file");
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-constexpr std::string_view kExpected = "an array of NumPy's .npy format: rows of float32, float16 or uint8";
+constexpr std::string_view kExpected =
+    "an array of NumPy's .npy format: rows of float32, float16, uint8 or int8";
 
 /// The value of `key` in the header, a Python dictionary; empty if there is none.
 std::string_view value_of(std::string_view header, std::string_view key) {
@@ -99,7 +100,7 @@ FloatRows read_npy(const std::filesystem::path& path) {
   if (!value_of(header, "'fortran_order'").starts_with("False"))
     throw vo::Error(name, "is in Fortran order", "C order: numpy.ascontiguousarray");
   const std::string_view type = value_of(header, "'descr'").substr(0, 3);
-  const std::size_t size = type == "<f4" ? 4 : type == "<f2" ? 2 : type == "|u1" ? 1 : 0;
+  const std::size_t size = type == "<f4" ? 4 : type == "<f2" ? 2 : type == "|u1" || type == "|i1" ? 1 : 0;
   if (size == 0) throw vo::Error(name, fmt::format("holds numbers of type '{}'", type), kExpected);
   const std::string_view data = bytes.substr(begin);
   if (shape.width == 0 || data.size() / size / shape.width != shape.rows || data.size() % size != 0)
@@ -113,8 +114,12 @@ FloatRows read_npy(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < rows.values.size() && size < 4; ++i) {
     std::uint16_t half = 0;
     if (size == 2) std::memcpy(&half, data.data() + 2 * i, 2);
-    rows.values[i] = size == 2 ? static_cast<float>(cv::float16_t::fromBits(half))
-                               : static_cast<float>(static_cast<unsigned char>(data[i]));
+    if (size == 2) {
+      rows.values[i] = static_cast<float>(cv::float16_t::fromBits(half));
+    } else {
+      rows.values[i] = type == "|i1" ? static_cast<float>(static_cast<signed char>(data[i]))
+                                     : static_cast<float>(static_cast<unsigned char>(data[i]));
+    }
   }
   check_finite(name, rows);
   return rows;
@@ -128,6 +133,11 @@ void write_npy(const std::filesystem::path& path, const FloatRows& rows) {
 void write_npy(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::size_t width) {
   if (width == 0 || bytes.size() % width != 0) throw std::invalid_argument("write_npy: whole rows expected");
   write(path, header_of("|u1", bytes.size() / width, width), bytes.data(), bytes.size());
+}
+
+void write_npy(const std::filesystem::path& path, std::span<const std::int8_t> bytes, std::size_t width) {
+  if (width == 0 || bytes.size() % width != 0) throw std::invalid_argument("write_npy: whole rows expected");
+  write(path, header_of("|i1", bytes.size() / width, width), bytes.data(), bytes.size());
 }
 
 }  // namespace place

@@ -53,6 +53,8 @@ TEST_F(Npy, ReadsWhatItWrites) {
   write_npy(folder_ / "b.npy", std::vector<std::uint8_t>{9, 8, 7, 6}, 4);
   EXPECT_THAT(read_npy(folder_ / "b.npy").values, ElementsAre(9, 8, 7, 6));
   EXPECT_EQ(test_support::read_file(folder_ / "b.npy").size(), 128U + 4U);  // the header is padded
+  write_npy(folder_ / "i.npy", std::vector<std::int8_t>{-128, -1, 0, 127}, 2);
+  EXPECT_THAT(read_npy(folder_ / "i.npy").values, ElementsAre(-128, -1, 0, 127));
 }
 
 TEST_F(Npy, NoRowsAreNone) {
