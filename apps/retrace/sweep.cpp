@@ -19,8 +19,13 @@ namespace retrace {
 namespace {
 
 std::vector<place::SweepAxis> axes_of(const SweepOptions& options) {
+  const bool metres = !options.lengths_m.empty();
+  if (metres && !options.lengths.empty())
+    throw vo::Error("--sequence-length-m", "is given beside --sequence-length", "one of both");
+  std::vector<std::string> lengths = metres ? options.lengths_m : options.lengths;
+  if (lengths.empty()) lengths = {"5", "10", "20", "40"};
   std::vector<place::SweepAxis> axes{{"motion", options.motions},
-                                     {"sequence-length", options.lengths},
+                                     {metres ? "sequence-length-m" : "sequence-length", lengths},
                                      {"search-range-rad", options.ranges}};
   for (const std::string& text : options.vary) {
     axes.push_back(place::parse_axis(text));
@@ -35,13 +40,15 @@ std::vector<place::SweepAxis> axes_of(const SweepOptions& options) {
 void sweep(const SweepOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   const std::vector<place::SweepAxis> axes = axes_of(options);
-  place::check_sweep(options.settings, axes);
+  place::check_sweep(options.settings, axes, options.equal_keyframes);
+  place::check_compared(axes, options.compare);
   const Truth truth = read_truth(options.truth);
   place::SweepResults results = resume_sweep(options, axes);
   bool finished = false;
+  std::vector<place::ComparedMethod> methods;
   {
     ProgressBar bar;
-    std::set<std::string> said;  // a walk is read once for each descriptor
+    std::set<std::string> said;  // a walk may be read several times
     const auto reader = [&](const std::vector<std::string>& sources) {
       return [&](const vo::WalkOptions& walk) {
         vo::Walk read = vo::read_walk(sources, walk, bar.callback());
@@ -50,23 +57,25 @@ void sweep(const SweepOptions& options) {
         return read;
       };
     };
-    finished =
-        place::sweep({.query = reader(options.query),
-                      .reference = reader(options.reference),
-                      .truth = truth.places,
-                      .tolerance = options.truth.tolerance,
-                      .settings = options.settings},
-                     axes, results,
-                     {.keep = [&](const place::SweepResults& all) { write_sweep_csv(options, axes, all); },
-                      .warn = [](const std::string& warning) { spdlog::warn("{}", warning); },
-                      .progress = bar.callback()});
+    const place::SweepInput input{.query = reader(options.query),
+                                  .reference = reader(options.reference),
+                                  .truth = truth.places,
+                                  .tolerance = options.truth.tolerance,
+                                  .settings = options.settings,
+                                  .equal_keyframes = options.equal_keyframes};
+    const place::SweepCallbacks callbacks{
+        .keep = [&](const place::SweepResults& all) { write_sweep_csv(options, axes, all); },
+        .warn = [](const std::string& warning) { spdlog::warn("{}", warning); },
+        .progress = bar.callback()};
+    finished = place::sweep(input, axes, results, callbacks);
+    if (finished) methods = place::compare_methods(input, axes, options.compare, results, callbacks);
   }
   if (!finished) {
     throw vo::Error(options.output, "the sweep was stopped",
                     "the same command again, which goes on from here");
   }
-  write_sweep_report(options, axes, results);
-  print_sweep(options, axes, results);
+  write_sweep_report(options, axes, results, methods);
+  print_sweep(options, axes, results, methods);
 }
 
 }  // namespace
@@ -86,11 +95,15 @@ std::function<void()> declare_sweep(Arguments& arguments) {
     arguments.option(flag, values, description).comma_separated().group("Swept");
   };
   list("--motion", options->motions, "sad, steps, hybrid, vo, none: what walks are resampled by");
-  list("--sequence-length", options->lengths, "keyframes on a line [SSS 4.2]");
+  list("--sequence-length", options->lengths, "keyframes on a line [5,10,20,40; SSS 4.2]");
+  list("--sequence-length-m", options->lengths_m, "metres on a line, instead; needs --reference-truth");
   list("--search-range-rad", options->ranges, "radians either side of pi/4 [SSS Fig. 8]");
+  arguments.option("--vary", options->vary, "NAME=a,b,c: any further setting; may be repeated")
+      .group("Swept");
+  list("--compare", options->compare, "swept settings whose values make the methods that are compared");
   arguments
-      .option("--vary", options->vary,
-              "NAME=a,b,c: any further setting of sampling or search; may be repeated")
+      .flag("--equal-keyframes", options->equal_keyframes,
+            "as many keyframes, within 5 %, in every cell as with none, or else as in the first cell")
       .group("Swept");
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral},
@@ -98,15 +111,17 @@ std::function<void()> declare_sweep(Arguments& arguments) {
                       "motion-file", "motion-file-start-s", "motion-file-gap-s", "view-points", "verify"});
   arguments.common(options->common);
   arguments.footer(
-      "Both walks are read once; a cost matrix is computed once for all cells that share it. With --motion "
-      "none and no\n"
-      "--every, every so many frames are kept that there are as many keyframes as with the first other "
-      "motion.\n"
+      "Walks are read once for all cells that keep the same of them; a cost matrix is computed once for all "
+      "cells that share\n"
+      "it. With --motion none and no --every, every so many frames are kept that there are about as many "
+      "keyframes as with the\n"
+      "first other motion. Each method is compared at its best and at the defaults, by a paired bootstrap.\n"
       "Examples:\n"
       "  retrace sweep night.mp4 --reference day.mp4 --query-truth night.csv --reference-truth day.csv \\\n"
       "    --tolerance-m 4 -o sweep\n"
       "  retrace sweep night.mp4 --reference day.mp4 --pairs pairs.csv --tolerance-frames 17 -o sweep \\\n"
-      "    --motion sad,steps,none --sequence-length 5,10,20,40,80 --vary enhance=local,standardise");
+      "    --motion none,sad,steps --equal-keyframes --vary enhance=local,standardise --compare "
+      "motion,enhance");
   return [options] { sweep(*options); };
 }
 

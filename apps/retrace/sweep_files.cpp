@@ -1,5 +1,6 @@
 #include "sweep_files.hpp"
 
+#include "methods_table.hpp"
 #include "report/heat_picture.hpp"
 #include "report/sweep_report.hpp"
 #include "run_directory.hpp"
@@ -36,6 +37,7 @@ std::string description_of(const SweepOptions& options, const std::vector<place:
   for (const place::SweepAxis& axis : axes) text += " " + axis.setting;
   place::Settings settings = options.settings;
   settings.threads.reset();  // does not affect results
+  if (options.equal_keyframes) text += "\n# equal keyframes";
   return text + "\n" + to_toml(settings);
 }
 
@@ -52,6 +54,7 @@ ordered_json cell_json(const std::vector<place::SweepAxis>& axes, const place::S
   if (!result) return json;
   json.update({{"query_keyframes", result->query_keyframes},
                {"reference_keyframes", result->reference_keyframes},
+               {"density", result->density},
                {"max_f1", result->max_f1},
                {"precision", result->precision},
                {"recall", result->recall},
@@ -86,38 +89,34 @@ void write_sweep_csv(const SweepOptions& options, const std::vector<place::Sweep
 }
 
 void write_sweep_report(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
-                        const place::SweepResults& results) {
+                        const place::SweepResults& results,
+                        const std::vector<place::ComparedMethod>& methods) {
   const fs::path folder = options.output;
+  vo::write_file(folder / "methods.json", methods_json(axes, options.compare, methods).dump(2) + "\n");
   vo::write_file(
       folder / "report.html",
       sweep_report(axes, results, fmt::format("{} on {}", shown(options.query), shown(options.reference)),
                    {{"Cells", std::to_string(results.size())},
-                    {"Right is within", tolerance_text(options.truth.tolerance)}}));
+                    {"Right is within", tolerance_text(options.truth.tolerance)}},
+                   methods_table(axes, options.compare, methods)));
   const std::vector<std::uint8_t> png = heat_picture(heat_tables(axes, results));
   vo::write_file(folder / "heat_map.png", {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 void print_sweep(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
-                 const place::SweepResults& results) {
+                 const place::SweepResults& results, const std::vector<place::ComparedMethod>& methods) {
   const std::optional<place::SweepCell> best = best_cell(axes, results);
   if (options.common.json) {
-    ordered_json json{{"best", nullptr}, {"cells", ordered_json::array()}};
+    ordered_json json{{"best", nullptr},
+                      {"methods", methods_json(axes, options.compare, methods)},
+                      {"cells", ordered_json::array()}};
     if (best) json["best"] = cell_json(axes, *best, results.at(*best));
     for (const place::SweepCell& cell : place::all_cells(axes))
       json["cells"].push_back(cell_json(axes, cell, results.at(cell)));
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("  {:<8}{:>14}{:>8}{:>11}{:>9}   {}\n", "motion", "keyframes", "max-F1", "precision", "recall",
-             "at");
-  for (const std::string& motion : options.motions) {
-    const std::optional<place::SweepCell> cell = best_cell(axes, results, motion);
-    if (!cell) continue;
-    const place::CellResult& r = *results.at(*cell);
-    fmt::print("  {:<8}{:>14}{:>8.3f}{:>11.3f}{:>9.3f}  {}\n", motion,
-               fmt::format("{} x {}", r.query_keyframes, r.reference_keyframes), r.max_f1, r.precision,
-               r.recall, flags_of(axes, *cell));
-  }
+  fmt::print("{}", methods_text(methods_table(axes, options.compare, methods)));
   if (best) fmt::print("best:{}\n", flags_of(axes, *best));
   fmt::print("{} cells; see {}\n", results.size(), (fs::path(options.output) / "report.html").string());
 }

@@ -968,6 +968,35 @@ class CliTest(unittest.TestCase):
         counts = {c["motion"]: int(c["query_keyframes"]) + int(c["reference_keyframes"]) for c in cells}
         self.assertLess(abs(counts["none"] - counts["sad"]), 0.2 * counts["sad"])
 
+    def test_a_sweep_compares_methods_at_equal_densities(self):
+        said = json.loads(self.sweep(self.folder / "sweep", "--motion", "none,sad", "--equal-keyframes", "--vary",
+                                     "enhance=local,standardise", "--compare", "motion,enhance", "--json"))
+        self.assertEqual(said["methods"], read_json(self.folder / "sweep/methods.json"))
+        cells = rows(self.folder / "sweep/sweep.csv")
+        counts = [int(c["query_keyframes"]) + int(c["reference_keyframes"]) for c in cells]
+        self.assertLess(max(counts) / min(counts), 1.05 / 0.99)
+        self.assertEqual([m["method"] for m in said["methods"]],
+                         [{"motion": m, "enhance": e} for m in ("none", "sad") for e in ("local", "standardise")])
+        for method in said["methods"]:
+            of_it = [float(c["max_f1"]) for c in cells if all(c[k] == v for k, v in method["method"].items())]
+            self.assertAlmostEqual(method["best"]["max_f1"], max(of_it), places=8)
+            low, high = method["best"]["max_f1_interval"]
+            self.assertLessEqual(low, method["best"]["max_f1"] + 1e-9)
+            self.assertLessEqual(method["best"]["max_f1"], high + 0.05)  # a resample seldom beats the walk by more
+            self.assertEqual((method["default"]["sequence-length"], method["default"]["search-range-rad"]), ("10", "0.1"))
+        # What is said of the density repeats the cell.
+        best = next(m["best"] for m in said["methods"] if m["method"] == {"motion": "sad", "enhance": "local"})
+        flags = [f"--{name}={best[name]}" for name in ("sequence-length", "search-range-rad", "enhance")]
+        check("build", self.walks.reference, "-o", self.folder / "r.db", f"--{best['density']}")
+        check("localise", self.walks.query, "--route", self.folder / "r.db", "-o", self.folder / "run", *flags)
+        check("evaluate", self.folder / "run", "--query-truth", self.walks.query_truth, "--reference-truth",
+              self.walks.reference_truth, "--tolerance-m", 0.1)
+        self.assertAlmostEqual(read_json(self.folder / "run/metrics.json")["max_f1"], best["max_f1"], places=9)
+        # What is there is not run again, and gives the same table.
+        again = json.loads(self.sweep(self.folder / "sweep", "--motion", "none,sad", "--equal-keyframes", "--vary",
+                                      "enhance=local,standardise", "--compare", "motion,enhance", "--json"))
+        self.assertEqual(again["methods"], said["methods"])
+
     def test_a_sweep_goes_on_where_it_was_stopped(self):
         whole = self.folder / "whole"
         self.sweep(whole, "--threads", 1)
@@ -998,9 +1027,12 @@ class CliTest(unittest.TestCase):
     def test_refuses_sweeps_it_cannot_do(self):
         sweep = ["sweep", self.walks.query, "--reference", self.walks.reference, "--query-truth", self.walks.query_truth,
                  "--reference-truth", self.walks.reference_truth, "--tolerance-m", 0.1, "-o", self.folder / "sweep"]
-        for options, says in ((["--vary", "enhanse=local"], "enhance?"), (["--vary", "thumbnail-width=32,64"], "cannot vary"),
+        for options, says in ((["--vary", "enhanse=local"], "enhance?"), (["--vary", "preview-width-px=32,64"], "cannot vary"),
                               (["--vary", "enhance"], "NAME=a,b,c"), (["--sequence-length", "0"], "expected 1 to 100000"),
-                              (["--motion", "fast"], "fast"), (["--vary", "motion=sad"], "twice")):
+                              (["--motion", "fast"], "fast"), (["--vary", "motion=sad"], "twice"),
+                              (["--compare", "enhance"], "is not varied"),
+                              (["--equal-keyframes", "--motion", "sad"], "has no effect"),
+                              (["--sequence-length", "5", "--sequence-length-m", "5"], "one of both")):
             self.refused(*sweep, *options, says=says)
         self.refused(*sweep[:-4], "-o", self.folder / "sweep", says="tolerance", code=2)
         self.sweep(self.folder / "sweep", "--motion", "sad")

@@ -137,7 +137,8 @@ std::vector<HeatTable> heat_tables(const std::vector<place::SweepAxis>& axes,
 
 std::string sweep_report(const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
                          const std::string& subtitle,
-                         const std::vector<std::pair<std::string, std::string>>& facts) {
+                         const std::vector<std::pair<std::string, std::string>>& facts,
+                         const MethodsTable& methods) {
   Page page("Which settings find the walk", subtitle);
   const std::optional<place::SweepCell> best = best_cell(axes, results);
   std::vector<place::SweepCell> best_of_motions;
@@ -153,6 +154,13 @@ std::string sweep_report(const std::vector<place::SweepAxis>& axes, const place:
     page.headlines(headlines);
   }
   page.facts(facts);
+  page.heading("Each method at its best");
+  page.table(methods.header, methods.rows);
+  page.paragraph(
+      "Beside its default; in brackets, 95 of 100 resamples of the walk's stretches, the same for all "
+      "methods. "
+      "The best was chosen on this walk, and is somewhat lower on another. " +
+      methods.note);
   page.heading("The best of each motion source");
   put_table(page, axes, results, best_of_motions);
   page.heading("Sequence length and search range");

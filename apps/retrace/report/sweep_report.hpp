@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods_table.hpp"
 #include "report/page.hpp"
 
 #include <string>
@@ -20,10 +21,11 @@ std::optional<place::SweepCell> best_cell(const std::vector<place::SweepAxis>& a
 std::vector<HeatTable> heat_tables(const std::vector<place::SweepAxis>& axes,
                                    const place::SweepResults& results);
 
-/// The page: best settings, heat tables, curves, every further axis by itself, all cells. `facts` are shown
-/// at its top.
+/// The page: best settings, the fair table, heat tables, curves, every further axis by itself, all cells.
+/// `facts` are shown at its top.
 std::string sweep_report(const std::vector<place::SweepAxis>& axes, const place::SweepResults& results,
                          const std::string& subtitle,
-                         const std::vector<std::pair<std::string, std::string>>& facts);
+                         const std::vector<std::pair<std::string, std::string>>& facts,
+                         const MethodsTable& methods);
 
 }  // namespace retrace

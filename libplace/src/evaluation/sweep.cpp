@@ -1,12 +1,16 @@
 #include "place/evaluation/sweep.hpp"
 
+#include "evaluation/sweep_cell.hpp"
 #include "place/place.hpp"
 #include "place/stage_options.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
@@ -14,88 +18,33 @@
 namespace place {
 namespace {
 
-constexpr const char* kReference = "reference";
-
-struct Walks {
-  vo::Walk query;
-  vo::Walk reference;
-};
-
-/// Two walks reduced to keyframes, and their costs.
-struct Sampled {
-  std::vector<std::size_t> query_frames;
-  std::vector<std::int64_t> reference_frames;
-  CostMatrix cost;
-  SearchOptions search;  ///< the gaps and steps of the query
-};
-
-/// Both walks on one route, up to the cost matrix.
-Sampled sample(const Walks& walks, const Settings& given) {
-  Route route = new_route(given);
-  add(route, kReference, walks.reference, {}, given);
-  const Settings settings = resolve(given, {.route = &route.settings, .pass_over = true});
-  const StageOptions options = stage_options(settings);
-  const SampledWalk query = sample_walk(walks.query, options.sampling, &route);
-  const Traverse& reference = route.traverses.front();
-  Sampled sampled{.query_frames = query.frames, .reference_frames = {}, .cost = {}, .search = {}};
-  for (const Keyframe& keyframe : reference.keyframes) sampled.reference_frames.push_back(keyframe.frame);
-  const RouteMatchingOptions& matching = options.matching;
-  sampled.cost = cost_matrix_on_route(query, reference, matching);
-  sampled.search = search_on_route(reference, walks.query.time_s, query, matching);
-  return sampled;
-}
-
-/// Keeps every K-th frame, so that there are about as many keyframes as with the motion of `settings`.
-int every_like(const Walks& walks, const Settings& settings) {
-  const Sampled sampled = sample(walks, settings);
+/// Frames between keyframes with which there are about as many as in a sampling.
+int every_like(const WalkPair& walks, const SampledPair& sampled) {
   const auto frames = static_cast<double>(walks.query.frames() + walks.reference.frames());
-  const auto keyframes = static_cast<double>(sampled.query_frames.size() + sampled.reference_frames.size());
-  return std::max(1, static_cast<int>(std::lround(frames / keyframes)));
-}
-
-std::optional<CellResult> run_cell(const Sampled& sampled, const CostMatrix& enhanced,
-                                   const RouteMatchingOptions& matching, const GroundTruth& truth,
-                                   const Tolerance& tolerance) {
-  SearchOptions search = sampled.search;
-  search.sequence = matching.search;
-  if (enhanced.references < static_cast<std::size_t>(search.sequence.length)) return {};
-  std::vector<Match> matches;
-  for (const SequenceMatch& found : search_method(matching.method).search(enhanced, search).matches) {
-    Match& match = matches.emplace_back();
-    match.query_frame = static_cast<std::int64_t>(sampled.query_frames[matches.size() - 1]);
-    match.score = found.score;
-    if (found.reference) match.place.emplace().frame = sampled.reference_frames[*found.reference];
-  }
-  const Evaluation e = evaluate(matches, truth, tolerance).evaluation;
-  return CellResult{.query_keyframes = enhanced.queries,
-                    .reference_keyframes = enhanced.references,
-                    .max_f1 = e.best.f1,
-                    .max_f1_threshold = e.best.threshold,
-                    .precision = e.best.precision,
-                    .recall = e.best.recall,
-                    .auc_pr = e.auc_pr,
-                    .recall_at_100_precision = e.recall_at_100_precision,
-                    .recall_at_1 = e.recall_at_1};
+  return std::max(1, static_cast<int>(std::lround(frames / static_cast<double>(keyframes_of(sampled)))));
 }
 
 /// A sweep in progress: what remains, what is done, and where it is kept.
 class Sweep {
  public:
-  Sweep(const SweepInput& input, const std::vector<SweepAxis>& axes, SweepResults& results,
-        const SweepCallbacks& callbacks)
+  Sweep(const SweepInput& input, const std::vector<SweepAxis>& axes, const std::vector<SweepCell>& cells,
+        SweepResults& results, const SweepCallbacks& callbacks)
       : input_(input), axes_(axes), results_(results), callbacks_(callbacks) {
-    for (const SweepCell& cell : all_cells(axes_)) {
-      if (!results_.contains(cell)) missing_.push_back(cell);
+    for (const SweepCell& cell : cells) {
+      if (!results_.contains(cell) && std::ranges::find(missing_, cell) == missing_.end())
+        missing_.push_back(cell);
     }
   }
 
   /// Runs the missing cells; false if the user stopped it.
   bool run() {
     if (missing_.empty()) return true;
-    if (!input_.settings.every) choose_every();
-    // The axes' order need not keep cells with one cost matrix together, so they are sorted.
-    std::ranges::stable_sort(missing_, {}, [&](const SweepCell& cell) { return matrix_key(cell); });
-    std::optional<Sampled> sampled;
+    choose_densities();
+    // The axes' order need not keep cells with the same walks and matrix together, so they are sorted.
+    std::ranges::stable_sort(missing_, {}, [&](const SweepCell& cell) {
+      return std::tuple(reading_key(cell), matrix_key(cell), enhanced_key(cell));
+    });
+    std::optional<SampledPair> sampled;
     std::string sampled_for;
     for (std::size_t begin = 0; begin < missing_.size();) {
       std::size_t end = begin;
@@ -128,59 +77,71 @@ class Sweep {
     return stage_options(resolve(settings(cell), {}));
   }
 
-  /// The values in a cell that its cost matrix depends on.
-  [[nodiscard]] std::string matrix_key(const SweepCell& cell) const {
+  /// The values in a cell of the axes that fulfil a condition.
+  template <typename Condition>
+  [[nodiscard]] std::string key(const SweepCell& cell, const Condition& counts) const {
     std::string key;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-      if (shapes_the_matrix(axes_[i].setting)) key += cell[i] + "\n";
+      if (counts(axes_[i].setting)) key += cell[i] + "\n";
     }
     return key;
   }
+
+  /// The values that affect what is kept of the walks.
+  [[nodiscard]] std::string reading_key(const SweepCell& cell) const {
+    return key(cell, [](const std::string& name) { return setting_named(name).at_reading; });
+  }
+
+  /// Those that its cost matrix depends on.
+  [[nodiscard]] std::string matrix_key(const SweepCell& cell) const { return key(cell, shapes_the_matrix); }
 
   /// The same for the enhanced one.
   [[nodiscard]] std::string enhanced_key(const SweepCell& cell) const {
-    std::string key = matrix_key(cell);
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      if (axes_[i].setting.starts_with("enhance")) key += cell[i] + "\n";
-    }
-    return key;
+    return key(
+        cell, [](const std::string& name) { return shapes_the_matrix(name) || name.starts_with("enhance"); });
   }
 
-  /// Both walks, with what a cell's descriptor keeps of them; read once for each descriptor.
-  const Walks& walks(const SweepCell& cell) {
-    const std::string descriptor = settings(cell).descriptor.value_or("");
-    const auto known = walks_.find(descriptor);
-    if (known != walks_.end()) return known->second;
+  /// Both walks, as a cell needs them; read once for all cells that need the same.
+  const WalkPair& walks(const SweepCell& cell) {
+    const std::string wanted = reading_key(cell);
+    if (walks_ && read_for_ == wanted) return *walks_;
     vo::WalkOptions walk = stages(cell).walk;
     walk.preview_width_px = 0;
-    for (const SweepCell& other : missing_) {  // everything that any of them needs
+    for (const SweepCell& other : all_cells(axes_)) {  // everything that any of them needs
+      if (reading_key(other) != wanted) continue;
       const vo::WalkOptions needed = stages(other).walk;
       walk.track_features |= needed.track_features;
       walk.visual_odometry |= needed.visual_odometry;
     }
-    Walks& both = walks_[descriptor];
-    both.reference = input_.reference(walk);
-    both.query = input_.query(walk);
-    return both;
+    walks_.reset();
+    read_for_ = wanted;
+    vo::Walk reference = input_.reference(walk);
+    walks_ = WalkPair{.query = input_.query(walk), .reference = std::move(reference)};
+    return *walks_;
   }
 
-  /// Without motion, as many keyframes as the first motion gives.
-  void choose_every() {
+  /// Without motion, as many keyframes as the first motion gives; if densities are to be equal, the number of
+  /// keyframes that all of them have.
+  void choose_densities() {
     const std::vector<SweepCell> cells = all_cells(axes_);
-    if (std::ranges::find(axes_, "every", &SweepAxis::setting) != axes_.end() ||
-        std::ranges::none_of(cells, [&](const SweepCell& cell) { return settings(cell).motion == "none"; }))
-      return;
-    for (const SweepCell& cell : cells) {
-      const Settings with_motion = settings(cell);
-      if (with_motion.motion == "none") continue;
-      every_ = every_like(walks(cell), with_motion);
-      return;
-    }
+    const auto is_fixed = [&](const SweepCell& cell) { return settings(cell).motion == "none"; };
+    const auto fixed = std::ranges::find_if(cells, is_fixed);
+    const auto with_motion = std::ranges::find_if_not(cells, is_fixed);
+    const bool every_varies = std::ranges::find(axes_, "every", &SweepAxis::setting) != axes_.end();
+    const bool choose =
+        fixed != cells.end() && with_motion != cells.end() && !input_.settings.every && !every_varies;
+    if (choose) every_ = every_like(walks(*with_motion), sample(*with_motion));
+    if (input_.equal_keyframes) target_ = keyframes_of(sample(fixed != cells.end() ? *fixed : cells.front()));
   }
 
-  std::optional<Sampled> sample_or_warn(const SweepCell& cell) {
+  SampledPair sample(const SweepCell& cell) {
+    if (target_ == 0) return sample_pair(walks(cell), settings(cell), input_.truth);
+    return sample_equally(walks(cell), settings(cell), input_.truth, target_);
+  }
+
+  std::optional<SampledPair> sample_or_warn(const SweepCell& cell) {
     try {
-      return sample(walks(cell), settings(cell));
+      return sample(cell);
     } catch (const vo::Error& error) {
       if (callbacks_.warn) callbacks_.warn(axes_.front().setting + " " + cell.front() + ": " + error.what());
       return {};
@@ -188,7 +149,7 @@ class Sweep {
   }
 
   /// The missing cells from `begin` to `end`, which share one enhanced matrix.
-  bool run_together(const std::optional<Sampled>& sampled, std::size_t begin, std::size_t end) {
+  bool run_together(const std::optional<SampledPair>& sampled, std::size_t begin, std::size_t end) {
     CostMatrix enhanced;
     if (sampled) {
       enhanced = sampled->cost;
@@ -203,11 +164,11 @@ class Sweep {
       std::vector<std::optional<CellResult>> found(count);
       if (sampled) {
         vo::parallel_for(count, [&](std::size_t i) {
-          found[i] = run_cell(*sampled, enhanced, stages(missing_[begin + i]).matching, input_.truth,
+          found[i] = run_cell(*sampled, enhanced, stages(missing_[begin + i]).matching, *walks_, input_.truth,
                               input_.tolerance);
         });
       }
-      for (std::size_t i = 0; i < count; ++i) results_[missing_[begin + i]] = found[i];
+      for (std::size_t i = 0; i < count; ++i) results_[missing_[begin + i]] = std::move(found[i]);
       if (callbacks_.keep) callbacks_.keep(results_);
       if (callbacks_.progress && !callbacks_.progress({.stage = "sweeping",
                                                        .done = static_cast<std::int64_t>(begin + count),
@@ -222,13 +183,15 @@ class Sweep {
   SweepResults& results_;
   const SweepCallbacks& callbacks_;
   std::vector<SweepCell> missing_;
-  std::map<std::string, Walks> walks_;  ///< by descriptor
-  int every_ = 0;                       ///< frames between keyframes without motion; 0: as the settings say
+  std::optional<WalkPair> walks_;
+  std::string read_for_;    ///< the reading key of the walks
+  int every_ = 0;           ///< frames between keyframes without motion; 0: as the settings say
+  std::size_t target_ = 0;  ///< keyframes that every sampling has; 0: as the settings say
 };
 
 }  // namespace
 
-void check_sweep(const Settings& base, const std::vector<SweepAxis>& axes) {
+void check_sweep(const Settings& base, const std::vector<SweepAxis>& axes, bool equal_keyframes) {
   Settings with_effect;
   for (const SweepCell& cell : all_cells(axes))
     with_effect = merged(with_effect, resolve(settings_at(base, axes, cell), {.pass_over = true}));
@@ -237,12 +200,28 @@ void check_sweep(const Settings& base, const std::vector<SweepAxis>& axes) {
       throw vo::Error(std::string(setting.name), "has no effect in any cell of this sweep",
                       "other axes, or this setting left out");
   }
+  if (!equal_keyframes) return;
+  const auto samples_apart = [](const SweepAxis& axis) {
+    const SettingGroup group = setting_named(axis.setting).group;
+    return axis.values.size() > 1 && group != SettingGroup::kSearch && group != SettingGroup::kDescribing;
+  };
+  if (std::ranges::none_of(axes, samples_apart))
+    throw vo::Error("equal-keyframes", "has no effect: nothing that samples walks is varied", "it left out");
+  for (const char* const density : {"every", "sampling-n", "spacing-m"}) {
+    if (std::ranges::find(axes, density, &SweepAxis::setting) != axes.end())
+      throw vo::Error("equal-keyframes", fmt::format("sets {}, which is varied", density), "one of both");
+  }
+}
+
+bool run_cells(const SweepInput& input, const std::vector<SweepAxis>& axes,
+               const std::vector<SweepCell>& cells, SweepResults& results, const SweepCallbacks& callbacks) {
+  check_sweep(input.settings, axes, input.equal_keyframes);
+  return Sweep(input, axes, cells, results, callbacks).run();
 }
 
 bool sweep(const SweepInput& input, const std::vector<SweepAxis>& axes, SweepResults& results,
            const SweepCallbacks& callbacks) {
-  check_sweep(input.settings, axes);
-  return Sweep(input, axes, results, callbacks).run();
+  return run_cells(input, axes, all_cells(axes), results, callbacks);
 }
 
 }  // namespace place

@@ -26,14 +26,26 @@ constexpr std::array kColumns{Column{"max_f1", &CellResult::max_f1},
                               Column{"recall_at_100_precision", &CellResult::recall_at_100_precision},
                               Column{"recall_at_1", &CellResult::recall_at_1}};
 
-/// Settings that may change from cell to cell although walks are read once, or once for each descriptor: not
-/// those of the pictures and points kept, nor those that do not affect precision and recall.
+/// Settings that may change from cell to cell: all but those that do not affect precision and recall, those
+/// of a file that both walks would share, and another program's search.
 bool can_vary(const Setting& setting) {
-  if (setting.name == "descriptor") return true;
-  constexpr std::array kNotHere{"compat",        "sequence-length-m",  "threads",
-                                "accept-score",  "accept-probability", "correct-drift",
-                                "fuse-traverses"};
-  return !setting.at_reading && std::ranges::find(kNotHere, setting.name) == kNotHere.end();
+  constexpr std::array kNotHere{"compat",
+                                "threads",
+                                "accept-score",
+                                "accept-probability",
+                                "correct-drift",
+                                "fuse-traverses",
+                                "view-points",
+                                "verify",
+                                "preview-width-px",
+                                "motion-file",
+                                "candidates",
+                                "motion-file-unit",
+                                "motion-file-start-s",
+                                "motion-file-gap-s",
+                                "descriptor-file",
+                                "axes"};
+  return std::ranges::find(kNotHere, setting.name) == kNotHere.end();
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -49,6 +61,7 @@ std::vector<std::string> split(const std::string& text) {
 std::string row(const SweepCell& cell, const std::optional<CellResult>& result) {
   std::string text = fmt::format("{}", fmt::join(cell, ","));
   text += result ? fmt::format(",{},{}", result->query_keyframes, result->reference_keyframes) : ",,";
+  text += "," + (result ? result->density : "");
   for (const Column& column : kColumns)
     text += result ? fmt::format(",{:.9g}", (*result).*column.value) : ",";
   return text + "\n";
@@ -103,7 +116,7 @@ bool shapes_the_matrix(const std::string& setting) {
 std::string sweep_csv(const std::vector<SweepAxis>& axes, const SweepResults& results) {
   std::string csv;
   for (const SweepAxis& axis : axes) csv += axis.setting + ",";
-  csv += "query_keyframes,reference_keyframes";
+  csv += "query_keyframes,reference_keyframes,density";
   for (const Column& column : kColumns) csv += fmt::format(",{}", column.name);
   csv += "\n";
   SweepResults left = results;
@@ -131,11 +144,13 @@ SweepResults read_sweep(const std::filesystem::path& path, const std::vector<Swe
   }
   const auto query = table.optional_numbers("query_keyframes");
   const auto reference = table.optional_numbers("reference_keyframes");
+  const std::vector<std::string> density = table.text("density");
   std::vector<std::optional<CellResult>> read(table.rows());
   for (std::size_t i = 0; i < read.size(); ++i) {
     if (!query[i] || !reference[i]) continue;
     read[i] = CellResult{.query_keyframes = static_cast<std::size_t>(*query[i]),
                          .reference_keyframes = static_cast<std::size_t>(*reference[i])};
+    read[i]->density = density[i];
   }
   for (const Column& column : kColumns) {
     const auto values = table.optional_numbers(column.name);

@@ -23,6 +23,7 @@ struct SweepInput {
   GroundTruth truth;
   Tolerance tolerance;
   Settings settings;
+  bool equal_keyframes = false;  ///< see `sweep`
 };
 
 struct SweepCallbacks {
@@ -34,15 +35,26 @@ struct SweepCallbacks {
 };
 
 /// Throws `vo::Error` unless every cell's settings are in range and compatible (`resolve`), and every setting
-/// of `base` has an effect in some cell.
-void check_sweep(const Settings& base, const std::vector<SweepAxis>& axes);
+/// of `base` has an effect in some cell; with `equal_keyframes`, also if an axis is a density, or none
+/// affects how walks are sampled.
+void check_sweep(const Settings& base, const std::vector<SweepAxis>& axes, bool equal_keyframes = false);
 
 /// Finds the query on the reference with the settings of every cell that is not in `results`, and adds the
-/// outcome (SSS 4.2, Fig. 8). Each walk is read once for each descriptor, and a cost matrix is computed once
-/// for all cells that share it. Without motion, and with `every` neither given nor varied, as many keyframes
-/// are kept as with the first other motion, so that densities are equal. Returns false if `progress` stopped
-/// it. Throws what the readers throw, and `vo::Error` for settings as in `check_sweep`.
+/// outcome (SSS 4.2, Fig. 8). Each walk is read once for all cells that keep the same of it, and a cost
+/// matrix is computed once for all cells that share it.
+///
+/// Without motion, and with `every` neither given nor varied, as many frames are left out that there are
+/// about as many keyframes as with the first other motion. `every` is a whole number, so this is not exact.
+/// With `input.equal_keyframes`, `sampling-n` and `spacing-m` of all other cells are then multiplied until
+/// both walks together have as many keyframes as without motion, or as in the first cell if every cell has
+/// motion, within 5 %; cells that cannot are not run. Returns false if `progress` stopped it. Throws what the
+/// readers throw, and `vo::Error` for settings as in `check_sweep`.
 bool sweep(const SweepInput& input, const std::vector<SweepAxis>& axes, SweepResults& results,
            const SweepCallbacks& callbacks = {});
+
+/// The same for some of the cells.
+bool run_cells(const SweepInput& input, const std::vector<SweepAxis>& axes,
+               const std::vector<SweepCell>& cells, SweepResults& results,
+               const SweepCallbacks& callbacks = {});
 
 }  // namespace place

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "place/evaluation/bootstrap.hpp"
 #include "place/settings.hpp"
 
 #include <filesystem>
@@ -25,6 +26,8 @@ struct CellResult {
   std::size_t reference_keyframes = 0;
   double max_f1 = 0, max_f1_threshold = 0, precision = 0, recall = 0;
   double auc_pr = 0, recall_at_100_precision = 0, recall_at_1 = 0;
+  std::string density;   ///< the setting that keyframes are as dense by, and its value: "every=8"
+  TimedQueries queries;  ///< the result of each query; empty if read from a file
 };
 
 /// None for a cell that cannot be run: a walk without steps, a route shorter than the sequence.
@@ -37,7 +40,7 @@ SweepAxis parse_axis(const std::string& text);
 std::vector<SweepCell> all_cells(const std::vector<SweepAxis>& axes);
 
 /// The settings of a cell: `base` with the axes' values. Throws `vo::Error` naming a setting that does not
-/// exist, is fixed once a walk is read, or does not accept its value.
+/// exist, does not affect where places are found, or does not accept its value.
 Settings settings_at(const Settings& base, const std::vector<SweepAxis>& axes, const SweepCell& cell);
 
 /// True if the setting changes keyframes or their descriptors, and so the cost matrix.

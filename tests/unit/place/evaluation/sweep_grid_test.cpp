@@ -38,7 +38,7 @@ TEST(SweepGrid, PutsACellsValuesIntoTheSettings) {
   const auto refused = [&](const char* name, const char* value, const char* said) {
     EXPECT_THROW_WITH(place::settings_at(base, {{name, {value}}}, {value}), vo::Error, said);
   };
-  refused("thumbnail-width", "32", "--vary thumbnail-width: cannot vary");
+  refused("preview-width-px", "32", "--vary preview-width-px: cannot vary");
   refused("compat", "openseqslam", "cannot vary");
   refused("motion", "file", "cannot be swept");
   refused("motion", "feet", "motion: is 'feet'");
@@ -56,6 +56,7 @@ TEST(SweepCsv, ReadsBackWhatItWrote) {
   const std::vector<SweepAxis> axes{{"motion", {"sad", "none"}}};
   place::SweepResults results;
   results[{"sad"}] = place::CellResult{.query_keyframes = 4, .reference_keyframes = 5, .max_f1 = 0.5};
+  results.at({"sad"})->density = "sampling-n=6";
   results[{"none"}] = std::nullopt;
   const std::string csv = place::sweep_csv(axes, results);
   const auto again = place::read_sweep(folder.write("sweep.csv", csv), axes);

@@ -1,6 +1,7 @@
 #include "support/known_walk.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,63 @@ TEST_F(SweepTest, KeepsAsManyKeyframesWithoutMotion) {
   EXPECT_LE(count("none"), frames / (every - 0.5) + 2);
 }
 
+TEST_F(SweepTest, MakesDensitiesEqualIfAsked) {
+  const std::vector<SweepAxis> axes{{"motion", {"sad", "none"}}, {"tie-scale", {"true", "false"}}};
+  input_.equal_keyframes = true;
+  input_.settings.sampling_n = 9;
+  SweepResults results;
+  place::sweep(input_, axes, results);
+  const auto count = [&](const char* motion, const char* tie) {
+    const auto& cell = results.at({motion, tie});
+    return static_cast<double>(cell->query_keyframes + cell->reference_keyframes);
+  };
+  for (const char* const tie : {"true", "false"})
+    EXPECT_NEAR(count("sad", tie), count("none", "true"), 0.05 * count("none", "true")) << tie;
+  EXPECT_THAT(results.at({"none", "true"})->density, testing::StartsWith("every="));
+
+  // The density that is said gives the same again.
+  const std::string density = results.at({"sad", "true"})->density;
+  ASSERT_THAT(density, testing::StartsWith("sampling-n="));
+  input_.settings.sampling_n = std::stod(density.substr(density.find('=') + 1));
+  input_.equal_keyframes = false;
+  SweepResults again;
+  place::sweep(input_, {{"motion", {"sad"}}}, again);
+  EXPECT_EQ(again.at({"sad"})->query_keyframes, results.at({"sad", "true"})->query_keyframes);
+  EXPECT_EQ(again.at({"sad"})->max_f1, results.at({"sad", "true"})->max_f1);
+}
+
+TEST_F(SweepTest, WithoutFixedSamplingTheFirstCellSetsTheDensity) {
+  input_.equal_keyframes = true;
+  SweepResults results, one;
+  place::sweep(input_, {{"motion", {"sad"}}, {"separations", {"5", "1"}}}, results);
+  input_.equal_keyframes = false;
+  place::sweep(input_, {{"motion", {"sad"}}}, one);
+  const auto total = [](const place::CellResult& r) {
+    return static_cast<double>(r.query_keyframes + r.reference_keyframes);
+  };
+  EXPECT_EQ(total(*results.at({"sad", "5"})), total(*one.at({"sad"})));
+  EXPECT_NEAR(total(*results.at({"sad", "1"})), total(*one.at({"sad"})), 0.05 * total(*one.at({"sad"})));
+}
+
+TEST_F(SweepTest, TakesSequencesInMetres) {
+  const std::vector<SweepAxis> axes{{"motion", {"sad"}}, {"sequence-length-m", {"2", "8"}}};
+  SweepResults metres, keyframes;
+  place::sweep(input_, axes, metres);
+  const double spacing_m =
+      kWallPx / 10.0 / static_cast<double>(metres.at({"sad", "2"})->reference_keyframes - 1);
+  const std::string eight = std::to_string(std::lround(8 / spacing_m));
+  place::sweep(input_, {{"motion", {"sad"}}, {"sequence-length", {eight}}}, keyframes);
+  EXPECT_EQ(metres.at({"sad", "8"})->max_f1_threshold, keyframes.at({"sad", eight})->max_f1_threshold);
+  EXPECT_NE(metres.at({"sad", "8"})->max_f1_threshold, metres.at({"sad", "2"})->max_f1_threshold);
+}
+
+TEST_F(SweepTest, ReadsAWalkAgainForASettingOfReading) {
+  SweepResults results;
+  place::sweep(input_, {{"motion", {"sad"}}, {"tracking-window", {"3", "5"}}}, results);
+  EXPECT_EQ(reads_, 4);
+  EXPECT_THAT(results, testing::SizeIs(2));
+}
+
 TEST_F(SweepTest, GoesOnFromWhatIsThere) {
   const std::vector<SweepAxis> axes{{"motion", {"sad"}}, {"sequence-length", {"5", "10"}}};
   SweepResults results;
@@ -115,6 +173,10 @@ TEST(CheckSweep, RefusesASettingWithoutEffect) {
                     "step-length: has no effect in any cell");
   EXPECT_NO_THROW(place::check_sweep(base, {{"motion", {"sad", "steps"}}}));
   EXPECT_THROW_WITH(place::check_sweep({}, {{"sequence-length", {"0"}}}), vo::Error, "sequence-length");
+  EXPECT_THROW_WITH(place::check_sweep({}, {{"motion", {"sad", "none"}}, {"every", {"2"}}}, true), vo::Error,
+                    "equal-keyframes: sets every, which is varied");
+  EXPECT_THROW_WITH(place::check_sweep({}, {{"motion", {"sad"}}, {"enhance", {"local", "none"}}}, true),
+                    vo::Error, "equal-keyframes: has no effect");
 }
 
 }  // namespace
