@@ -12,7 +12,8 @@ void declare_survey(Arguments& arguments, SurveyFiles& files) {
                        "surveyed poses of the walk, TUM format, seconds since its first frame");
   Argument track = arguments.option(
       "--track", files.track,
-      "GPS track of the walk: .gpx, or .csv with time_s since the first frame, lat_deg, lon_deg");
+      "GPS track of the walk: .gpx; .csv with time_s since the first frame, lat_deg, lon_deg; a GoPro's "
+      "video, or `video` for that of the walk itself");
   track.excludes(truth).excludes(trajectory.excludes(truth));
   arguments
       .option(
@@ -50,7 +51,7 @@ std::optional<place::Survey> read_survey(const SurveyFiles& files, const place::
   if (files.track.empty()) return {};
   form.start_s = files.track_start_s;
   form.track_name = files.track_name;
-  return place::survey_from_track(files.track, walk, route, form);
+  return place::survey_from_track(files.track == "video" ? walk.source : files.track, walk, route, form);
 }
 
 }  // namespace retrace

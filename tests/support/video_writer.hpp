@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -32,6 +33,7 @@ struct VideoOptions {
   std::map<std::string, std::string> tags;                    ///< of the container
   double rate_hz = 25;                                        ///< that it says
   double sound_s = 0;                                         ///< length of a silent sound track; .mov only
+  std::vector<std::string> telemetry;  ///< pieces of a track of a second each that is called gpmd; .mp4, .mov
 };
 
 /// Writes videos for tests, frame by frame at any time, with FFmpeg's own encoders.
@@ -61,6 +63,7 @@ class VideoWriter {
     if (begun_) {
       encode(nullptr);
       write_sound();
+      write_telemetry();
       av_write_trailer(format_);
       avio_closep(&format_->pb);
     }
@@ -116,6 +119,13 @@ class VideoWriter {
       sound_->codecpar->ch_layout = AV_CHANNEL_LAYOUT_MONO;
       sound_->time_base = {1, kSampleRate};
     }
+    if (!options_.telemetry.empty()) {
+      telemetry_ = avformat_new_stream(format_, nullptr);
+      telemetry_->codecpar->codec_type = AVMEDIA_TYPE_DATA;
+      telemetry_->codecpar->codec_id = AV_CODEC_ID_BIN_DATA;
+      telemetry_->codecpar->codec_tag = MKTAG('g', 'p', 'm', 'd');
+      telemetry_->time_base = {1, 1000};
+    }
     frame_ = av_frame_alloc();
     frame_->format = pixels;
     frame_->width = codec_->width;
@@ -161,6 +171,21 @@ class VideoWriter {
     av_packet_free(&packet);
   }
 
+  void write_telemetry() {
+    if (telemetry_ == nullptr) return;
+    AVPacket* packet = av_packet_alloc();
+    for (std::size_t i = 0; i < options_.telemetry.size(); ++i) {
+      const std::string& piece = options_.telemetry[i];
+      av_new_packet(packet, static_cast<int>(piece.size()));
+      std::memcpy(packet->data, piece.data(), piece.size());
+      packet->pts = packet->dts = av_rescale_q(static_cast<std::int64_t>(i), {1, 1}, telemetry_->time_base);
+      packet->duration = av_rescale_q(1, {1, 1}, telemetry_->time_base);
+      packet->stream_index = telemetry_->index;
+      need(av_interleaved_write_frame(format_, packet) >= 0);
+    }
+    av_packet_free(&packet);
+  }
+
   static constexpr int kSampleRate = 8000;
   VideoOptions options_;
   std::string path_;
@@ -168,6 +193,7 @@ class VideoWriter {
   AVCodecContext* codec_ = nullptr;
   AVStream* stream_ = nullptr;
   AVStream* sound_ = nullptr;
+  AVStream* telemetry_ = nullptr;
   AVFrame* frame_ = nullptr;
   bool begun_ = false;
 };

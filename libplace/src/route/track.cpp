@@ -1,6 +1,7 @@
 #include "place/route/track.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <vo/base/iso_time.hpp>
 #include <vo/io/csv.hpp>
 #include <vo/io/text_file.hpp>
+#include <vo/io/video_positions.hpp>
 
 namespace place {
 namespace {
@@ -230,11 +232,36 @@ GeographicTrack read_csv(const std::filesystem::path& path, const TrackOptions& 
   return in_order(track, path.string(), {});
 }
 
+/// The track that a camera recorded within its video.
+GeographicTrack read_from_video(const std::filesystem::path& path, const TrackOptions& options) {
+  if (!options.track_name.empty())
+    throw vo::Error(path.string(), "is a video, which has one track", "no --track-name");
+  const vo::VideoPositions recorded = vo::read_video_positions(path);
+  FileTrack track{.all = recorded.positions.size() + recorded.without_fix,
+                  .without_place = recorded.without_fix};
+  for (const vo::RecordedPosition& p : recorded.positions) {
+    const GeographicPoint place{p.latitude_deg, p.longitude_deg};
+    if (on_earth(place)) {
+      track.points.push_back({p.time_s, place});
+    } else {
+      ++track.without_place;
+    }
+  }
+  std::vector<std::string> warnings;
+  if (recorded.damaged > 0)
+    warnings.push_back(fmt::format("{}: {} pieces of its GPS track are damaged and left out", path.string(),
+                                   recorded.damaged));
+  std::ranges::stable_sort(track.points, {}, &FilePoint::time_s);
+  return in_order(track, path.string(), std::move(warnings));
+}
+
 }  // namespace
 
 GeographicTrack read_track(const std::filesystem::path& path, const TrackOptions& options) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr std::array<std::string_view, 4> kVideos{".mp4", ".mov", ".lrv", ".360"};
+  if (std::ranges::find(kVideos, extension) != kVideos.end()) return read_from_video(path, options);
   const bool xml = extension == ".gpx" || extension == ".xml" || begins_as_xml(path);
   return xml ? read_gpx(path, options) : read_csv(path, options);
 }

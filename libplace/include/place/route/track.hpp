@@ -28,8 +28,9 @@ struct TrackOptions {
   double video_duration_s = 0;
 };
 
-/// Reads a track: a GPX file, recognised by its ending or its first character, or a CSV file with columns
-/// time_s, latitude_deg (or lat_deg), longitude_deg (or lon_deg), whose times are used unchanged.
+/// Reads a track: a GPX file, recognised by its ending or its first character, a video of a GoPro (.mp4,
+/// .mov, .lrv, .360: `vo::read_video_positions`), or a CSV file with columns time_s, latitude_deg (or
+/// lat_deg), longitude_deg (or lon_deg). Times of the last two are used unchanged, since the first frame.
 ///
 /// In a GPX file every `trkpt` with a place and a time counts, in any encoding, name space prefix or time
 /// zone; segments are sorted by time. Points without place (0, 0 is none) or time, out of order within a
@@ -38,8 +39,8 @@ struct TrackOptions {
 /// otherwise the latest; a warning names them. A file that counts from 1970 (`to_gpx` without a start) has
 /// times since the walk's first frame.
 ///
-/// Throws `vo::Error` naming the file if it is neither, has no track (a route, waypoints), no track with that
-/// name, or fewer than two usable points. O(n log n).
+/// Throws `vo::Error` naming the file if it is none of these, has no track (a route, waypoints), no track
+/// with that name, or fewer than two usable points. O(n log n).
 GeographicTrack read_track(const std::filesystem::path& path, const TrackOptions& options = {});
 
 /// The track as poses relative to an origin; heading is that of the path over `heading_m` metres, so that the

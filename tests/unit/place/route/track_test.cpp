@@ -1,5 +1,7 @@
+#include "support/gpmf_pieces.hpp"
 #include "support/replaced.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/video_writer.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -168,6 +170,23 @@ TEST(Track, ReadsCsv) {
   EXPECT_THAT(bad.warnings, ElementsAre(HasSubstr("3 of 5 points are left out: 2 without a place")));
   EXPECT_THROW_WITH(read("time_s,lat_deg,lon_deg\n1,2,3\n2,2,3\n", {.track_name = "a"}, "walk.csv"),
                     vo::Error, "is no GPX file");
+}
+
+TEST(Track, ReadsWhatACameraRecordsBesideItsPictures) {
+  const TemporaryFolder folder;
+  test_support::write_video(folder / "GX01.MP4", 50,
+                            {.telemetry = {test_support::gps5_piece({{51.5, -0.25}, {51.5 + 1e-5, -0.25}}),
+                                           test_support::gps5_piece({{0, 0}}, 0),
+                                           test_support::gps5_piece({{51.5 + 2e-5, -0.25}})}});
+  const place::GeographicTrack track = place::read_track(folder / "GX01.MP4");
+  ASSERT_EQ(track.time_s.size(), 3U);
+  EXPECT_NEAR(track.time_s[1], 0.5, 0.001);
+  EXPECT_NEAR(track.time_s[2], 2, 0.001);
+  EXPECT_NEAR(track.points[2].latitude_deg, 51.5 + 2e-5, 1e-7);
+  EXPECT_FALSE(track.start_utc_s);
+  EXPECT_THAT(track.warnings, ElementsAre(HasSubstr("1 of 4 points are left out: 1 without a place")));
+  EXPECT_THROW_WITH(place::read_track(folder / "GX01.MP4", {.track_name = "1"}), vo::Error,
+                    "no --track-name");
 }
 
 TEST(Track, ReadsWhatToGpxWrites) {
