@@ -114,12 +114,33 @@ ordered_json summary(const place::Route& route, const std::string& route_path, c
   return json;
 }
 
-/// Accepted matches' poses, at the query's times.
-vo::Trajectory matched_poses(const std::vector<place::Match>& matches) {
-  vo::Trajectory trajectory;
-  for (const place::Match& match : matches)
-    if (match.accepted && match.place->pose) trajectory.push_back({match.query_time_s, *match.place->pose});
-  return trajectory;
+/// A trajectory, and the probability of the match that each of its poses belongs to.
+struct SurePoses {
+  vo::Trajectory poses;
+  std::vector<std::optional<double>> probability;
+};
+
+/// Accepted matches' poses, at the query's times. `surveyed`: only those on surveyed traverses.
+SurePoses matched_poses(const std::vector<place::Match>& matches, const place::Route& route, bool surveyed) {
+  SurePoses sure;
+  for (const place::Match& match : matches) {
+    if (!match.accepted || !match.place->pose) continue;
+    const auto on = std::ranges::find(route.traverses, match.place->traverse, &place::Traverse::name);
+    if (surveyed && (on == route.traverses.end() || !on->surveyed)) continue;
+    sure.poses.push_back({match.query_time_s, *match.place->pose});
+    sure.probability.push_back(match.probability);
+  }
+  return sure;
+}
+
+/// For maps, where the route's poses are on the earth.
+void write_geographic(const fs::path& folder, const SurePoses& sure, const place::Route& route,
+                      std::optional<double> start_utc_s) {
+  if (!route.origin || sure.poses.empty()) return;
+  vo::write_file(folder / "trajectory.geojson",
+                 place::to_geojson(sure.poses, *route.origin, sure.probability));
+  vo::write_file(folder / "trajectory.gpx",
+                 place::to_gpx(sure.poses, *route.origin, start_utc_s, sure.probability));
 }
 
 vo::Trajectory without_covariance(const place::CorrectedWalk& walk) {
@@ -235,7 +256,9 @@ void write_trajectory(const place::QueryTrajectory& t, const place::Route& route
     const std::string comment =
         t.fixes.empty() ? fmt::format("no pose: {}", t.why_not)
                         : fmt::format("query time, pose of the matched reference keyframe: {}", t.why_not);
-    vo::write_file(folder / "trajectory.tum", vo::to_tum(matched_poses(matches), comment));
+    vo::write_file(folder / "trajectory.tum",
+                   vo::to_tum(matched_poses(matches, route, false).poses, comment));
+    write_geographic(folder, matched_poses(matches, route, true), route, start_utc_s);
     return;
   }
   const vo::Trajectory corrected = without_covariance(t.corrected);
@@ -245,9 +268,10 @@ void write_trajectory(const place::QueryTrajectory& t, const place::Route& route
   vo::write_file(folder / "trajectory_odometry.tum",
                  vo::to_tum(t.odometry, "the same before correction, laid where the corrected one begins"));
   vo::write_file(folder / "trajectory.csv", trajectory_csv(t, matches));
-  if (!route.origin || !route.traverses[*t.traverse].surveyed) return;
-  vo::write_file(folder / "trajectory.geojson", place::to_geojson(corrected, *route.origin));
-  vo::write_file(folder / "trajectory.gpx", place::to_gpx(corrected, *route.origin, start_utc_s));
+  if (!route.traverses[*t.traverse].surveyed) return;
+  SurePoses sure{.poses = corrected, .probability = {}};
+  for (const place::Match& match : matches) sure.probability.push_back(match.probability);
+  write_geographic(folder, sure, route, start_utc_s);
 }
 
 }  // namespace retrace

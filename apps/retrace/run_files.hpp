@@ -29,8 +29,9 @@ WrittenRun localise_into(const std::filesystem::path& folder, const place::Route
                          bool whole_matrices = false);
 
 /// Writes trajectory.tum: the corrected poses, or else those of accepted matches. With a correction also
-/// trajectory_odometry.tum and trajectory.csv, and trajectory.geojson and .gpx if the route has an origin;
-/// those not written are removed, since they would belong to another run. `start_utc_s`: see `place::to_gpx`.
+/// trajectory_odometry.tum and trajectory.csv. If the route is surveyed and has an origin, trajectory.geojson
+/// and .gpx have the poses of trajectory.tum with the probabilities of their matches. Those not written are
+/// removed, since they would belong to another run. `start_utc_s`: see `place::to_gpx`.
 void write_trajectory(const place::QueryTrajectory& trajectory, const place::Route& route,
                       const std::vector<place::Match>& matches, const std::filesystem::path& folder,
                       std::optional<double> start_utc_s);

@@ -22,6 +22,11 @@ void write(cv::Mat& page, const std::string& text, cv::Point at, const cv::Scala
   cv::putText(page, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, colour, 1, cv::LINE_AA);
 }
 
+/// The scale at which a text is no wider than `width_px`.
+double fitting(const std::string& text, int width_px) {
+  return std::min(kText, kText * width_px / std::max(1, text_size(text, kText).width));
+}
+
 /// The picture as large as fits into a part of the page, in its middle.
 void place_picture(cv::Mat page, const cv::Mat& picture) {
   const double scale =
@@ -42,13 +47,15 @@ void write_caption(cv::Mat page, const std::string& text) {
   cv::Mat band = page(cv::Rect(0, 0, std::min(page.cols, text_size(text, kText).width + 2 * kMargin_px),
                                std::min(page.rows, kCaption_px)));
   band *= 0.35;
-  write(page, text, {kMargin_px, kCaption_px - 7});
+  write(page, text, {kMargin_px, kCaption_px - 7}, kInk, fitting(text, page.cols - 2 * kMargin_px));
 }
 
 void draw_position(cv::Mat& page, const SideView& view, const SideViewLayout& layout) {
   const cv::Point begin = layout.bar_begin(), end = layout.bar_end();
-  write(page, view.status, {begin.x, begin.y - 20});
-  write(page, view.route_end, {end.x - text_size(view.route_end, kText).width, end.y - 20}, kFaint);
+  const int length = text_size(view.route_end, kText).width;
+  write(page, view.status, {begin.x, begin.y - 20}, kInk,
+        fitting(view.status, end.x - begin.x - length - kMargin_px));
+  write(page, view.route_end, {end.x - length, end.y - 20}, kFaint);
   cv::line(page, begin, end, kFaint, 3, cv::LINE_AA);
   if (!view.along) return;
   const double along = std::clamp(*view.along, 0.0, 1.0);

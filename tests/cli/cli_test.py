@@ -262,6 +262,11 @@ class CliTest(unittest.TestCase):
         self.assertEqual((out / "trajectory.gpx").read_text().count("<trkpt"), len(corrected))
         self.assertIn("<time>2024-05-01T10:01:0", (out / "trajectory.gpx").read_text())
         self.assertTrue(read_json(out / "summary.json")["drift"]["corrected"])
+        told = read_json(out / "trajectory.geojson")["properties"]["probability"]
+        for probability, row in zip(told, matches):
+            self.assertEqual(probability is None, row["probability"] == "")
+            if probability is not None:
+                self.assertAlmostEqual(probability, float(row["probability"]), delta=1e-4)
 
         # From the files again, the same; from other odometry, as good; without, the matches' poses.
         before = (out / "trajectory.csv").read_bytes()
@@ -277,6 +282,10 @@ class CliTest(unittest.TestCase):
         check("localise", video_file, "--route", route, "--sequence-length", "6", "-o", out, "--force", "--correct-drift", "false")
         self.assertFalse((out / "trajectory.csv").exists())
         self.assertFalse(read_json(out / "summary.json")["drift"]["corrected"])
+        # Without correction, maps have the places of the accepted matches.
+        accepted = [row for row in rows(out / "matches.csv") if row["accepted"] == "1"]
+        self.assertEqual(len(read_json(out / "trajectory.geojson")["geometry"]["coordinates"]), len(accepted))
+        self.assertEqual((out / "trajectory.gpx").read_text().count("<trkpt"), len(accepted))
         (self.folder / "short.tum").write_text("0 0 0 0 0 0 0 1\n")
         self.refused("correct", out, "--route", route, "--odometry", self.folder / "short.tum", says="short.tum: has no pose at")
         self.refused("correct", out, "--route", self.walks.route, says="is not on the route")

@@ -65,6 +65,18 @@ TEST(SideView, TheMarkerStandsWhereTheWalkerIs) {
   }
 }
 
+TEST(SideView, LongCaptionsAreMadeToFit) {
+  SideView view = view_of({});
+  view.query = cv::Mat(48, 96, CV_8UC3, cv::Scalar(0, 0, 0));
+  view.query_caption = std::string(60, 'M');
+  const cv::Mat page = draw_side_view(view, side_view_layout({96, 48}, {96, 48}, 320));
+  double brightest = 0;
+  cv::minMaxLoc(page(cv::Rect(0, 0, 300, 22)).clone().reshape(1), nullptr, &brightest);
+  EXPECT_GT(brightest, 100);
+  cv::minMaxLoc(page(cv::Rect(310, 0, 10, 22)).clone().reshape(1), nullptr, &brightest);
+  EXPECT_LT(brightest, 20);
+}
+
 TEST(SideView, OffTheRouteNothingIsShownButWords) {
   const SideViewLayout layout = side_view_layout({96, 48}, {96, 48}, 320);
   const cv::Mat page = draw_side_view(view_of({}), layout);

@@ -3,6 +3,7 @@
 #include "place/route/route.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include <vo/base/trajectory.hpp>
@@ -21,12 +22,19 @@ struct GeographicPoint {
 vo::Pose2 local_at(const GeographicOrigin& origin, const GeographicPoint& point);
 GeographicPoint geographic_at(const GeographicOrigin& origin, double x_m, double y_m);
 
-/// A line as GeoJSON (RFC 7946), with the points' times as property `time_s`. Coordinates to a centimetre.
-std::string to_geojson(const vo::Trajectory& trajectory, const GeographicOrigin& origin);
+/// The probability that each pose of a trajectory is right, none where it is not known; empty: not given.
+using PoseProbabilities = std::span<const std::optional<double>>;
+
+/// A line as GeoJSON (RFC 7946), with the points' times as property `time_s`, and their probabilities, if
+/// given, as `probability`. Coordinates to a centimetre. Throws `std::invalid_argument` for another number of
+/// probabilities than poses.
+std::string to_geojson(const vo::Trajectory& trajectory, const GeographicOrigin& origin,
+                       PoseProbabilities probability = {});
 
 /// A track of GPX 1.1, to a centimetre and a millisecond, which `read_track` reads. `start_utc_s`: when the
 /// walk began, in seconds since 1970; without it times count from 1970 itself, and the file says so.
+/// Probabilities become an extension of each point. Throws as `to_geojson`.
 std::string to_gpx(const vo::Trajectory& trajectory, const GeographicOrigin& origin,
-                   std::optional<double> start_utc_s = std::nullopt);
+                   std::optional<double> start_utc_s = std::nullopt, PoseProbabilities probability = {});
 
 }  // namespace place

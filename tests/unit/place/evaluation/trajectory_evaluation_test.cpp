@@ -2,11 +2,18 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <place/evaluation/trajectory_evaluation.hpp>
+#include <vo/base/rng.hpp>
+#include <vo/io/trajectory_io.hpp>
 
 namespace {
 
@@ -97,6 +104,76 @@ TEST(TrajectoryEvaluation, NothingAndOnePose) {
   EXPECT_EQ(e.ape_m.rmse, 0);
   EXPECT_THROW(evaluate_trajectory(one, one, {.delta = 0}), std::invalid_argument);
   EXPECT_THROW(place::pair_poses(one, one, -1), std::invalid_argument);
+}
+
+/// Poses in space, as evo holds a TUM file: 4x4 matrices of its positions and quaternions.
+std::vector<Eigen::Isometry3d> in_space(const std::string& tum) {
+  std::vector<Eigen::Isometry3d> poses;
+  std::istringstream lines(tum);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    std::istringstream values(line);
+    double time_s = 0, x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 0;
+    values >> time_s >> x >> y >> z >> qx >> qy >> qz >> qw;
+    poses.push_back(Eigen::Translation3d(x, y, z) * Eigen::Quaterniond(qw, qx, qy, qz).normalized());
+  }
+  return poses;
+}
+
+/// evo's statistics that matter here.
+std::pair<double, double> rmse_and_sd(const std::vector<double>& errors) {
+  const Eigen::Map<const Eigen::ArrayXd> e(errors.data(), static_cast<Eigen::Index>(errors.size()));
+  return {std::sqrt(e.square().mean()), std::sqrt((e - e.mean()).square().mean())};
+}
+
+TEST(TrajectoryEvaluation, EqualsEvosFormulasOnWhatItReadsOfOurFiles) {
+  // evo 1.x: metrics.APE and metrics.RPE with the translation part, after geometry.umeyama_alignment; in
+  // space, where ours is in the plane.
+  const vo::Trajectory truth = walk_round_corners(60, 3);
+  vo::Trajectory estimate = truth;
+  vo::Rng rng(5);
+  for (auto& [time_s, pose] : estimate) {
+    const double along = 0.03 * time_s;
+    pose = {1.05 * pose.x_m + along + rng.normal() * 0.2, 1.05 * pose.y_m - 2 * along + rng.normal() * 0.2,
+            pose.heading_rad + 0.05 * rng.normal()};
+  }
+  for (const auto alignment :
+       {TrajectoryAlignment::kNone, TrajectoryAlignment::kRigid, TrajectoryAlignment::kScaled}) {
+    const std::vector<Eigen::Isometry3d> q = in_space(vo::to_tum(truth));
+    std::vector<Eigen::Isometry3d> p = in_space(vo::to_tum(estimate));
+    ASSERT_EQ(p.size(), q.size());
+    const auto n = static_cast<Eigen::Index>(p.size());
+    Eigen::Matrix3Xd from(3, n), to(3, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      from.col(i) = p[static_cast<std::size_t>(i)].translation();
+      to.col(i) = q[static_cast<std::size_t>(i)].translation();
+    }
+    if (alignment != TrajectoryAlignment::kNone) {
+      const Eigen::Matrix4d t = Eigen::umeyama(from, to, alignment == TrajectoryAlignment::kScaled);
+      const double scale = std::cbrt(t.topLeftCorner<3, 3>().determinant());
+      for (Eigen::Isometry3d& pose : p) {
+        pose.translation() = (t.topLeftCorner<3, 3>() * pose.translation() + t.topRightCorner<3, 1>()).eval();
+        pose.linear() = (t.topLeftCorner<3, 3>() / scale * pose.linear()).eval();
+      }
+    }
+    std::vector<double> ape;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      ape.push_back((p[i].translation() - q[i].translation()).norm());
+    for (const std::size_t delta : {1U, 7U}) {
+      std::vector<double> rpe;
+      for (std::size_t i = 0; i + delta < p.size(); i += delta) {
+        const Eigen::Isometry3d moved = p[i].inverse() * p[i + delta], truly = q[i].inverse() * q[i + delta];
+        rpe.push_back((truly.inverse() * moved).translation().norm());
+      }
+      const auto ours = evaluate_trajectory(estimate, truth, {.alignment = alignment, .delta = delta});
+      constexpr double kSixDecimals_m = 1e-5;  // of the file, and of what is computed from them
+      EXPECT_EQ(ours.poses, p.size());
+      EXPECT_NEAR(ours.ape_m.rmse, rmse_and_sd(ape).first, kSixDecimals_m);
+      EXPECT_NEAR(ours.ape_m.sd, rmse_and_sd(ape).second, kSixDecimals_m);
+      EXPECT_NEAR(ours.rpe_m.rmse, rmse_and_sd(rpe).first, kSixDecimals_m) << delta;
+      EXPECT_NEAR(ours.rpe_m.sd, rmse_and_sd(rpe).second, kSixDecimals_m) << delta;
+    }
+  }
 }
 
 }  // namespace

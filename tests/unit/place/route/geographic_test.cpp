@@ -48,4 +48,19 @@ TEST(Geographic, WritesWhatMapsRead) {
   EXPECT_THAT(place::to_gpx(walk, {46, 7}), testing::HasSubstr("Times count from the walk's first frame."));
 }
 
+TEST(Geographic, WritesHowSureEachPoseIs) {
+  const vo::Trajectory walk{{0, {0, 0, 0}}, {1.5, {10, 20, 0}}};
+  const std::vector<std::optional<double>> probability{0.98765, std::nullopt};
+  EXPECT_THAT(place::to_geojson(walk, {46, 7}, probability),
+              testing::HasSubstr(R"("properties":{"time_s":[0.000,1.500],"probability":[0.9877,null]})"));
+  const std::string gpx = place::to_gpx(walk, {46, 7}, 1e9, probability);
+  EXPECT_THAT(gpx, testing::HasSubstr("</time><extensions><retrace:probability>0.9877</retrace:probability>"
+                                      "</extensions></trkpt>"));
+  EXPECT_THAT(gpx, testing::HasSubstr("</time></trkpt>"));
+  EXPECT_THAT(gpx, testing::HasSubstr("xmlns:retrace="));
+  const std::vector<std::optional<double>> one{0.5};
+  EXPECT_THROW(place::to_geojson(walk, {46, 7}, one), std::invalid_argument);
+  EXPECT_THROW(place::to_gpx(walk, {46, 7}, {}, one), std::invalid_argument);
+}
+
 }  // namespace
