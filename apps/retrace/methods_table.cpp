@@ -48,9 +48,10 @@ MethodsTable methods_table(const std::vector<place::SweepAxis>& axes,
                            const std::vector<place::ComparedMethod>& methods) {
   MethodsTable table;
   table.header = compared;
-  for (const char* const name :
-       {"sampled", "keyframes", "default", "best", "best at", "best less the first's"})
+  for (const char* const name : {"sampled", "keyframes", "default", "best", "best at"})
     table.header.emplace_back(name);
+  if (!methods.empty())
+    table.header.push_back(fmt::format("gain on {} {}", compared.front(), methods.front().values.front()));
   for (const place::ComparedMethod& method : methods) {
     std::vector<std::string>& row = table.rows.emplace_back(method.values);
     const place::CellResult& best = method.best.result;
@@ -59,10 +60,9 @@ MethodsTable methods_table(const std::vector<place::SweepAxis>& axes,
     row.push_back(with_interval(method.standard.result.max_f1, method.standard.interval));
     row.push_back(with_interval(best.max_f1, method.best.interval));
     row.push_back(others(axes, compared, method.best.cell));
-    const bool first = &method == &methods.front();
-    row.push_back(
-        first ? ""
-              : with_interval(best.max_f1 - methods.front().best.result.max_f1, method.difference.interval));
+    const place::ComparedMethod& baseline = methods[method.baseline];
+    const double gain = best.max_f1 - baseline.best.result.max_f1;
+    row.push_back(&method == &baseline ? "" : with_interval(gain, method.difference.interval));
     if (method.with_truth < kFewQueries) {
       table.note = fmt::format("{} queries with truth, under {}: too few to call a method better",
                                method.with_truth, kFewQueries);
@@ -80,7 +80,8 @@ ordered_json methods_json(const std::vector<place::SweepAxis>& axes, const std::
     row["with_truth"] = method.with_truth;
     row["best"] = cell_json(axes, method.best);
     row["default"] = cell_json(axes, method.standard);
-    row["difference"] = method.best.result.max_f1 - methods.front().best.result.max_f1;
+    row["baseline"] = method.baseline;
+    row["difference"] = method.best.result.max_f1 - methods[method.baseline].best.result.max_f1;
     row["difference_interval"] = interval_json(method.difference.interval);
   }
   return json;

@@ -12,6 +12,7 @@ namespace {
 std::vector<std::size_t> indices_of(const std::vector<SweepAxis>& axes,
                                     const std::vector<std::string>& compared) {
   std::vector<std::size_t> indices;
+  if (compared.empty()) throw vo::Error("--compare", "names nothing", "the name of a swept setting");
   for (const std::string& name : compared) {
     const auto axis = std::ranges::find(axes, name, &SweepAxis::setting);
     if (axis == axes.end())
@@ -24,6 +25,14 @@ std::vector<std::size_t> indices_of(const std::vector<SweepAxis>& axes,
 const CellResult* result_of(const SweepResults& results, const SweepCell& cell) {
   const auto found = results.find(cell);
   return found != results.end() && found->second ? &*found->second : nullptr;
+}
+
+/// The first method with the same values as another, but for the first.
+std::size_t baseline_of(const std::vector<ComparedMethod>& methods, std::size_t of) {
+  const auto alike = [&](const ComparedMethod& method) {
+    return std::equal(method.values.begin() + 1, method.values.end(), methods[of].values.begin() + 1);
+  };
+  return static_cast<std::size_t>(std::ranges::find_if(methods, alike) - methods.begin());
 }
 
 }  // namespace
@@ -89,7 +98,9 @@ std::vector<ComparedMethod> compare_methods(const SweepInput& input, const std::
   const std::vector<RunBootstrap> drawn = bootstrap(queries, tolerance, options);
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i]->interval = drawn[i].max_f1;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    methods[i].difference = paired_difference(drawn[2 * i], drawn[0], options.confidence);
+    methods[i].baseline = baseline_of(methods, i);
+    methods[i].difference =
+        paired_difference(drawn[2 * i], drawn[2 * methods[i].baseline], options.confidence);
     methods[i].with_truth = static_cast<std::size_t>(
         std::ranges::count(methods[i].best.result.queries.queries, true, &ScoredQuery::has_truth));
   }

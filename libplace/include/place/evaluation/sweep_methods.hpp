@@ -18,15 +18,15 @@ struct UncertainCell {
 
 /// A method of a fair comparison: the same values on the compared axes, at its best over all others.
 struct ComparedMethod {
-  SweepCell values;    ///< on the compared axes, in their order
-  UncertainCell best;  ///< the highest max-F1, the first among equals
-  UncertainCell
-      standard;  ///< with the default of every other axis, or its first value if it lacks the default
+  SweepCell values;             ///< on the compared axes, in their order
+  UncertainCell best;           ///< the highest max-F1, the first among equals
+  UncertainCell standard;       ///< see `standard_cell`
   std::size_t with_truth = 0;   ///< queries of the best cell with a true place
-  PairedDifference difference;  ///< of its best from the first method's best
+  std::size_t baseline = 0;     ///< the first method that has its values but for the first; perhaps itself
+  PairedDifference difference;  ///< of its best from the baseline's
 };
 
-/// The cell in which the axes that are not `compared` have their defaults.
+/// The cell in which every axis that is not `compared` has its default, or its first value if it lacks that.
 SweepCell standard_cell(const std::vector<SweepAxis>& axes, const std::vector<std::string>& compared,
                         SweepCell cell);
 

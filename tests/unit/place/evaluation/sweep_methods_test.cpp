@@ -71,6 +71,19 @@ TEST_F(CompareMethods, TakesTheBestCellOfEach) {
   EXPECT_EQ(methods[0].difference.interval->high, 0);
 }
 
+TEST_F(CompareMethods, ComparesLikeWithLike) {
+  const std::vector<SweepAxis> axes{{"motion", {"none", "sad"}}, {"enhance", {"local", "standardise"}}};
+  SweepResults results;
+  place::sweep(input_, axes, results);
+  const auto methods = place::compare_methods(input_, axes, {"motion", "enhance"}, results);
+  ASSERT_THAT(methods, testing::SizeIs(4));
+  EXPECT_EQ(methods[3].values, (SweepCell{"sad", "standardise"}));
+  EXPECT_EQ(methods[1].baseline, 1U);  // fixed sampling is the baseline
+  EXPECT_EQ(methods[2].baseline, 0U);  // of the same enhancement
+  EXPECT_EQ(methods[3].baseline, 1U);
+  EXPECT_THROW(place::compare_methods(input_, axes, {}, results), vo::Error);
+}
+
 TEST_F(CompareMethods, RunsAgainWhatWasReadFromAFile) {
   SweepResults results;
   place::sweep(input_, axes_, results);
