@@ -186,6 +186,21 @@ class AccuracyTest(unittest.TestCase):
         standardised = self.metrics(day, night, truth, THUMBNAIL, ("--enhance", "standardise", *search))
         self.assertGreaterEqual(standardised["max_f1"], 0.99)
 
+    def test_fixed_and_resampled_on_the_street_each_at_its_best(self):
+        """Fixed sampling finds most of the night too, with lines steep enough: what is said of it is said of its best."""
+        said = json.loads(check("sweep", SIM / "street_night.mp4", "--reference", SIM / "street_day.mp4",
+                                *sim_truth("street_day", "street_night"), "-o", self.folder / "sweep", *THUMBNAIL,
+                                "--search", "lines", "--enhance", "local", "--motion", "none,sad", "--equal-keyframes",
+                                "--sequence-length", "20,40", "--search-range-rad", "0.1,0.2,0.4", "--json"))
+        fixed, resampled = said["methods"]
+        counts = [m["best"]["query_keyframes"] + m["best"]["reference_keyframes"] for m in (fixed, resampled)]
+        self.assertLessEqual(abs(counts[1] - counts[0]), 0.05 * counts[0])
+        for method in (fixed, resampled):
+            print(f"\n  {method['method']['motion']}: max-F1 {method['best']['max_f1']:.3f} {method['best']['max_f1_interval']}, "
+                  f"{method['best']['density']}", end=" ", flush=True)
+        self.assertGreaterEqual(fixed["best"]["max_f1"], 0.9)
+        self.assertGreaterEqual(resampled["best"]["max_f1"], 0.95)
+
     def test_corridor_with_stops_and_passers_by_by_thumbnails(self):
         metrics = self.metrics(SIM / "corridor_a.mp4", SIM / "corridor_b.mp4", sim_truth("corridor_a", "corridor_b"), THUMBNAIL)
         self.assertGreaterEqual(metrics["max_f1"], 0.98)
