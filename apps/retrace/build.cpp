@@ -15,6 +15,7 @@
 #include <spdlog/spdlog.h>
 
 #include <place/place.hpp>
+#include <place/route/named_places.hpp>
 #include <place/route/route_lock.hpp>
 #include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
@@ -31,6 +32,7 @@ struct BuildOptions {
   std::string name;
   SurveyFiles survey;
   std::string import;
+  std::string places;
 };
 
 /// The default name of the traverse: the recording's, without folders and extension.
@@ -61,7 +63,8 @@ void print(const BuildOptions& options, const place::Route& route, const place::
                                 {"sampling_unit", route.unit},
                                 {"relative_scale", added.scale},
                                 {"motion", *route.settings.motion},
-                                {"gait_share", nullptr}};
+                                {"gait_share", nullptr},
+                                {"places", traverse.places.size()}};
     if (added.gait_share) json["gait_share"] = *added.gait_share;
     fmt::print("{}\n", json.dump(2));
     return;
@@ -80,8 +83,8 @@ void print(const BuildOptions& options, const place::Route& route, const place::
 void build(BuildOptions& options) {
   if (!options.import.empty()) {
     if (!options.walk.empty() || !options.name.empty() || options.settings != place::Settings{} ||
-        options.survey != SurveyFiles{})
-      throw vo::Error("--import", "leaves no choice of a walk, a name, a survey or settings",
+        options.survey != SurveyFiles{} || !options.places.empty())
+      throw vo::Error("--import", "leaves no choice of a walk, a name, places, a survey or settings",
                       "--output alone: all else is in the folder");
     return import_route(options.import, options.output, options.common);
   }
@@ -89,6 +92,8 @@ void build(BuildOptions& options) {
     throw vo::Error("walk", "is missing", std::string(kWalkArgument) + ", or --import");
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_writable(options.output);
+  std::vector<place::PlaceName> names;
+  if (!options.places.empty()) names = place::read_place_names(options.places);
   if (options.name.empty()) options.name = default_name(options.walk.front());
   const place::RouteLock lock(options.output, {.waiting = [&] {
                                 spdlog::info("{}: another build adds to it; waiting", options.output);
@@ -115,6 +120,8 @@ void build(BuildOptions& options) {
   const place::AddedTraverse added =
       place::add(route, options.name, walk, survey, settings, options.common.force);
   for (const std::string& warning : added.warnings) spdlog::warn("{}", warning);
+  place::Traverse& traverse = route.traverses[added.index];
+  traverse.places = place::named_places(names, traverse);
   lock.check_unchanged();
   place::write_route(options.output, route);
   print(options, route, added);
@@ -130,6 +137,9 @@ std::function<void()> declare_build(Arguments& arguments) {
   arguments.option("-o,--output", options->output, "route database to create or add to").required();
   arguments.option("--name", options->name, "name of the traverse [the recording's]");
   declare_survey(arguments, options->survey);
+  arguments.option("--places", options->places,
+                   "names of places, which `follow --announce` says in passing: .csv with frame,name or "
+                   "distance_m,name");
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral});
   arguments.common(options->common);

@@ -128,7 +128,8 @@ std::function<void()> declare_follow(Arguments& arguments) {
   arguments.option("--lag-s", options->lag_s, "seconds that a second, surer answer looks back by; 0: none")
       .range(0, 60);
   arguments.flag("--announce", options->announce,
-                 "events as lines of their own: found, left_route, back_on_route, turn_ahead, end_of_route");
+                 "events as lines of their own: found, left_route, back_on_route, turn_ahead, passing, "
+                 "end_of_route");
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kGeneral}, {"preview-width-px", "view-points"});
   arguments.force(options->common);

@@ -53,9 +53,10 @@ std::string event_line(const place::FollowEvent& event) {
   ordered_json json{{"event", place::name_of(event.kind)},
                     {"frame", event.frame},
                     {"time_s", rounded(event.time_s, kMillimetres)}};
+  if (!event.name.empty()) json["name"] = event.name;
   if (event.distance_m) json["distance_m"] = rounded(*event.distance_m, kHundredths);
   if (event.turn_deg) json["turn_deg"] = rounded(*event.turn_deg, 1);
-  return json.dump();
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace retrace

@@ -68,6 +68,11 @@ nlohmann::ordered_json route_json(const std::string& path, const place::Route& r
       if (keyframe.after_gap) k["after_gap"] = true;
       keyframes.push_back(std::move(k));
     }
+    ordered_json places = ordered_json::array();
+    for (const place::NamedPlace& named : traverse.places) {
+      places.push_back({{"name", named.name}, {"frame", named.frame}});
+      if (named.distance_m) places.back()["distance_m"] = *named.distance_m;
+    }
     json["traverses"].push_back({{"name", traverse.name},
                                  {"source", traverse.source},
                                  {"frames", traverse.frames},
@@ -79,6 +84,7 @@ nlohmann::ordered_json route_json(const std::string& path, const place::Route& r
                                  {"descriptor_bytes", descriptor_bytes(traverse)},
                                  {"poses", poses},
                                  {"previews", previews},
+                                 {"places", std::move(places)},
                                  {"settings", settings_json(traverse.settings)},
                                  {"keyframe", std::move(keyframes)}});
   }
@@ -109,6 +115,11 @@ void print_route(const std::string& path, const place::Route& route) {
       fmt::print("\n");
     } else {
       fmt::print("  no poses\n");
+    }
+    for (const place::NamedPlace& named : traverse.places) {
+      fmt::print("  '{}' at frame {}", named.name, named.frame);
+      if (named.distance_m) fmt::print(", {:.2f} m", *named.distance_m);
+      fmt::print("\n");
     }
     for (const std::size_t gap : place::gaps_of(traverse)) {
       fmt::print("  interrupted between frames {} and {}\n", traverse.keyframes[gap - 1].frame,

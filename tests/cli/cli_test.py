@@ -867,6 +867,34 @@ class CliTest(unittest.TestCase):
             near += abs(line["distance_m"] - 0.01 * self.walks.query_at[line["frame"]]) <= 0.48
         self.assertGreaterEqual(near, 0.95 * len(on_route))
 
+    def test_says_the_names_of_places_in_passing(self):
+        route, names = self.folder / "route.db", self.folder / "names.csv"
+        names.write_text("distance_m,name\n4,\"bench, <script>\"\n2.5,bakery\n")
+        check("build", self.walks.reference, "-o", route, "--truth", self.walks.reference_truth, "--places", names)
+        told = json.loads(check("inspect", route, "--json"))["traverses"][0]["places"]
+        self.assertEqual([(one["name"], one["distance_m"]) for one in told], [("bakery", 2.5), ("bench, <script>", 4)])
+        for one in told:  # a pixel is a centimetre
+            self.assertAlmostEqual(0.01 * self.walks.reference_at[one["frame"]], one["distance_m"], delta=0.03)
+        self.assertIn("'bakery' at frame", check("inspect", route))
+        lines = [json.loads(line) for line in check("follow", self.walks.query, "--route", route, "--announce").splitlines()]
+        passing = [line for line in lines if line.get("event") == "passing"]
+        self.assertEqual([line["name"] for line in passing], ["bakery", "bench, <script>"])
+        for line in passing:
+            self.assertLessEqual(abs(line["distance_m"]), 2)
+
+        # A second walk keeps them, and so does an exported route.
+        check("build", self.walks.query, "-o", route, "--name", "evening")
+        check("inspect", route, "--export", self.folder / "exported")
+        check("build", "--import", self.folder / "exported", "-o", self.folder / "imported.db")
+        self.assertIn("'bakery' at frame", check("inspect", self.folder / "imported.db"))
+
+        self.refused("build", self.walks.query, "-o", self.folder / "new.db", "--places", names,
+                     says="names.csv: line 2: gives a distance, and the walk has no surveyed distances")
+        names.write_text("frame,name\n9999,x\n")
+        self.refused("build", self.walks.query, "-o", self.folder / "new.db", "--places", names, says="line 2: names frame 9999")
+        names.write_text("place,name\n1,x\n")
+        self.refused("build", self.walks.query, "-o", self.folder / "new.db", "--places", names, says="frame,name or distance_m,name")
+
     def test_a_line_depends_on_no_later_frame(self):
         walk = video(self.walks.query, self.folder / "walk.mp4")
         all_of_it = check("follow", walk, "--route", self.walks.route, "--lag-s", "1").splitlines()

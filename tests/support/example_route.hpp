@@ -61,6 +61,7 @@ inline place::Route example_route() {
   route.traverses.push_back(example_traverse("", 0, 3));            // no keyframe
   route.traverses.push_back(example_traverse("short", 1, 4));
   route.traverses[1].surveyed = false;
+  route.traverses[1].places = {{"gate", 3, {}}, {"caf\xC3\xA9 \"<b>\"", 90, 12.25}};
   route.learned = {{1, 2, 250}, {}, {7}};
   route.origin = {.latitude_deg = -33.85678, .longitude_deg = 151.21528};
   return route;

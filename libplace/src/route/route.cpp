@@ -24,6 +24,11 @@ bool has_view_points(const Route& route) {
                              [](const Traverse& traverse) { return !traverse.view_points.empty(); });
 }
 
+bool has_named_places(const Route& route) {
+  return std::ranges::any_of(route.traverses,
+                             [](const Traverse& traverse) { return !traverse.places.empty(); });
+}
+
 bool has_poses(const Route& route) {
   return std::ranges::any_of(route.traverses, [](const Traverse& traverse) {
     return std::ranges::any_of(traverse.keyframes,

@@ -86,6 +86,15 @@ void write_traverse(const fs::path& folder, const Traverse& traverse) {
     write_descriptors(descriptor_file(folder, d), traverse.descriptors[d]);
 }
 
+/// Only where there are any.
+void write_places(const fs::path& folder, const Traverse& traverse) {
+  if (traverse.places.empty()) return;
+  std::string rows = "frame,distance_m,name\n";
+  for (const NamedPlace& place : traverse.places)
+    rows += fmt::format("{},{},{}\n", place.frame, number(place.distance_m), csv_cell(place.name));
+  vo::write_file(folder / "places.csv", rows);
+}
+
 void write_all(const fs::path& folder, const Route& route) {
   std::string values = fmt::format("name,value\nformat,{}\nwritten_by,{}\nunit,{}\nmetric,{}\n", kFormat,
                                    csv_cell(kVersion), number(route.unit), route.metric ? 1 : 0);
@@ -107,6 +116,7 @@ void write_all(const fs::path& folder, const Route& route) {
                     traverse.frame_width_px, traverse.frame_height_px, csv_cell(traverse.pose_source),
                     traverse.surveyed ? 1 : 0, traverse.thumbnails.width, traverse.thumbnails.height);
     write_traverse(traverse_folder(folder, t), traverse);
+    write_places(traverse_folder(folder, t), traverse);
   }
   vo::write_file(folder / "settings.csv", settings);
   vo::write_file(folder / "traverses.csv", traverses);

@@ -115,6 +115,18 @@ void read_keyframes(const fs::path& folder, Traverse& traverse) {
   }
 }
 
+void read_places(const fs::path& file, Traverse& traverse) {
+  if (!fs::exists(file)) return;
+  const CsvTable table = CsvTable::read(file);
+  const auto frames = table.indices("frame");
+  const auto distances = table.optional_numbers("distance_m");
+  const auto names = table.text("name");
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    if (names[i].empty()) throw vo::Error(table.where(i), "has no name", "a name for each place");
+    traverse.places.push_back({names[i], frames[i], distances[i]});
+  }
+}
+
 std::vector<Settings> read_settings(const fs::path& folder, std::size_t traverses) {
   const CsvTable table = CsvTable::read(folder / "settings.csv");
   std::vector<Settings> settings(traverses + 1);
@@ -169,6 +181,7 @@ Traverse read_traverse(const fs::path& folder, const CsvTable& table, std::size_
   traverse.pose_source = table.text("pose_source")[row];
   traverse.surveyed = whole("surveyed") != 0;
   read_keyframes(folder, traverse);
+  read_places(folder / "places.csv", traverse);
   const std::size_t count = traverse.keyframes.size();
   if (fs::exists(folder / "thumbnails.npy")) {
     const std::int64_t width = whole("thumbnail_width"), height = whole("thumbnail_height");

@@ -26,6 +26,13 @@ struct Keyframe {
   std::vector<std::uint8_t> preview_jpeg;  ///< a small picture for people; empty if none was kept
 };
 
+/// A place on a traverse that has a name: a shop, a crossing.
+struct NamedPlace {
+  std::string name;                  ///< UTF-8, never empty
+  std::int64_t frame = 0;            ///< of the traverse's source video
+  std::optional<double> distance_m;  ///< along the route, where surveyed
+};
+
 /// One walk along a route.
 struct Traverse {
   std::string name;         ///< unique in its route
@@ -37,6 +44,7 @@ struct Traverse {
   std::string pose_source;  ///< file the poses came from, without folders; empty if none
   bool surveyed = true;     ///< false: the poses are the walk's own odometry, relative to its start
   std::vector<Keyframe> keyframes;
+  std::vector<NamedPlace> places;        ///< in the order of their frames
   std::vector<Descriptors> descriptors;  ///< for each of the route's descriptors, one per keyframe
   /// One for each keyframe, if previews are kept; empty otherwise, or where they are the descriptors.
   vo::ImageStack thumbnails;
@@ -71,6 +79,9 @@ std::vector<std::size_t> gaps_of(const Traverse& traverse);
 
 /// True if any traverse has SURF points to check a query against.
 bool has_view_points(const Route& route);
+
+/// True if any place of any traverse has a name.
+bool has_named_places(const Route& route);
 
 /// True if any keyframe has a pose to place a query with.
 bool has_poses(const Route& route);

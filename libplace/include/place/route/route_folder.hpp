@@ -15,6 +15,7 @@
 ///                                preview,points_bytes
 ///     traverse-T/descriptors-D.npy   a row for each keyframe: uint8 (pixels), int8 (columns), float32
 ///     traverse-T/thumbnails.npy  uint8, a row for each keyframe, where they are kept
+///     traverse-T/places.csv      frame,distance_m,name, where places have names
 ///     traverse-T/preview-FRAME.jpg
 ///     traverse-T/points.npy      the keyframes' SURF points one after another, packed, where they are kept
 ///

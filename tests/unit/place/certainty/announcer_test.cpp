@@ -85,4 +85,94 @@ TEST(Announcer, SaysNothingOfTurnsWithoutPoses) {
   EXPECT_THAT(announcer.push(at(40)), testing::IsEmpty());
 }
 
+/// The events of one kind while the walker comes along these keyframes.
+std::vector<place::FollowEvent> passed(place::Announcer& announcer,
+                                       const std::vector<std::size_t>& keyframes) {
+  std::vector<place::FollowEvent> all;
+  for (const std::size_t k : keyframes)
+    for (const auto& event : announcer.push(at(k)))
+      if (event.kind == FollowEventKind::kPassing) all.push_back(event);
+  return all;
+}
+
+TEST(Announcer, NamesEachPlaceOnceInPassing) {
+  place::Route route = around_a_corner();
+  route.traverses[0].places = {{"bakery", 65, {}}, {"bench", 300, {}}};
+  place::Announcer announcer(route);
+  std::vector<std::size_t> along(39);
+  for (std::size_t k = 0; k < along.size(); ++k) along[k] = k;
+  auto events = passed(announcer, along);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].name, "bakery");
+  EXPECT_EQ(events[0].frame, 5);  // 6.5 m along, first within 2 m at the fifth metre
+  EXPECT_DOUBLE_EQ(*events[0].distance_m, 1.5);
+  EXPECT_EQ(events[1].name, "bench");
+  EXPECT_DOUBLE_EQ(*events[1].distance_m, 2);
+
+  // To and fro near the bench is one passing; from 8 m away and back is the next.
+  EXPECT_TRUE(passed(announcer, {30, 24, 31, 35, 30}).empty());
+  events = passed(announcer, {21, 28});
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].name, "bench");
+}
+
+TEST(Announcer, NamesAPlaceThatIsPassedBetweenTwoLinesButNoneJumpedOver) {
+  place::Route route = around_a_corner();
+  route.traverses[0].places = {{"bakery", 60, {}}};
+  place::Announcer announcer(route);
+  auto events = passed(announcer, {3, 10});  // 3 m before it, then 4 m after
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_DOUBLE_EQ(*events[0].distance_m, -4);
+  place::Announcer other(route);
+  EXPECT_TRUE(passed(other, {1, 30}).empty());  // carried there
+}
+
+TEST(Announcer, NamesAPlaceAgainAfterTheRouteWasLeft) {
+  place::Route route = around_a_corner();
+  route.traverses[0].places = {{"bakery", 60, {}}};
+  place::Announcer announcer(route);
+  EXPECT_EQ(passed(announcer, {6}).size(), 1U);
+  announcer.push(at(6, FollowState::kSearching));
+  EXPECT_TRUE(passed(announcer, {6}).empty());
+  announcer.push(at(6, FollowState::kOffRoute));
+  EXPECT_EQ(passed(announcer, {6}).size(), 1U);
+}
+
+TEST(Announcer, NamesPlacesOfBothWalksOnce) {
+  place::Route route = around_a_corner();
+  route.traverses.push_back(route.traverses[0]);
+  route.traverses[1].name = "night";
+  route.traverses[0].places = {{"bakery", 60, {}}};
+  route.traverses[1].places = {{"bakery", 70, {}}};
+  place::Announcer announcer(route);
+  EXPECT_EQ(passed(announcer, {5}).size(), 1U);
+  place::Position other = at(6);
+  other.place->traverse = "night";
+  EXPECT_TRUE(announcer.push(other).empty());
+}
+
+TEST(Announcer, NamesPlacesWithoutMetres) {
+  place::Route route = around_a_corner();
+  for (auto& keyframe : route.traverses[0].keyframes) keyframe.pose.reset();
+  route.traverses[0].places = {{"bakery", 60, {}}};
+  place::Announcer announcer(route);
+  const auto events = passed(announcer, {3, 4, 5, 6, 7});
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].frame, 5);  // a keyframe before
+  EXPECT_FALSE(events[0].distance_m);
+}
+
+TEST(Announcer, SaysTheEndBySurveyedDistances) {
+  place::Route route = around_a_corner();
+  for (std::size_t k = 0; k < 41; ++k) {
+    route.traverses[0].keyframes[k].pose.reset();
+    route.traverses[0].keyframes[k].distance_m = 100 + static_cast<double>(k);
+  }
+  place::Announcer announcer(route);
+  EXPECT_THAT(names(announcer.push(at(36))), testing::ElementsAre("found"));
+  const auto events = announcer.push(at(38));
+  ASSERT_THAT(names(events), testing::ElementsAre("end_of_route"));
+  EXPECT_DOUBLE_EQ(*events[0].distance_m, 2);
+}
+
 }  // namespace

@@ -89,6 +89,24 @@ TEST(RouteDatabase, KeepsPointsWhereThereAreAny) {
   EXPECT_THROW(place::write_route(folder / "r.db", route), std::invalid_argument);
 }
 
+TEST(RouteDatabase, KeepsNamedPlaces) {
+  const TemporaryFolder folder;
+  place::Route route = example_route();
+  place::write_route(folder / "r.db", route);
+  const place::Route back = place::read_route(folder / "r.db", {.previews = false, .view_points = false});
+  EXPECT_TRUE(back.traverses[0].places.empty());
+  ASSERT_EQ(back.traverses[1].places.size(), 2U);
+  EXPECT_EQ(back.traverses[1].places[0].name, "gate");
+  EXPECT_EQ(back.traverses[1].places[0].frame, 3);
+  EXPECT_FALSE(back.traverses[1].places[0].distance_m);
+  EXPECT_EQ(back.traverses[1].places[1].name, "caf\xC3\xA9 \"<b>\"");
+  EXPECT_EQ(back.traverses[1].places[1].distance_m, 12.25);
+  EXPECT_TRUE(place::has_named_places(back));
+  route.traverses[1].places.clear();
+  place::write_route(folder / "r.db", route);
+  EXPECT_FALSE(place::has_named_places(place::read_route(folder / "r.db")));
+}
+
 TEST(RouteDatabase, EqualRoutesGiveEqualBytes) {
   const TemporaryFolder folder;
   place::write_route(folder / "a.db", example_route());
