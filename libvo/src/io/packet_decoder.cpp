@@ -3,7 +3,6 @@
 #include "vo/base/error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <filesystem>
 
@@ -14,11 +13,6 @@ namespace {
 
 constexpr std::string_view kRecordingForms =
     "a video file, a folder of images, camera:N, rtsp://..., or - (Y4M)";
-
-std::string reason(int code) {
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  return av_strerror(code, text.data(), text.size()) == 0 ? text.data() : std::string("unknown");
-}
 
 bool is_address(const std::string& source) {
   return source.starts_with("rtsp://") || source.starts_with("rtsps://");
@@ -45,7 +39,7 @@ AVFormatContext* opened(const std::string& source) {
   const int code = avformat_open_input(&format, url.c_str(), form, &options);
   av_dict_free(&options);
   if (code < 0) {
-    if (is_address(source)) problem = fmt::format("cannot be opened: {}", reason(code));
+    if (is_address(source)) problem = fmt::format("cannot be opened: {}", ffmpeg::reason(code));
     throw Error(source == "-" ? "standard input" : source, problem, expected);
   }
   return format;

@@ -1,39 +1,27 @@
 #include "vo/io/video_positions.hpp"
 
 #include "io/decoder_errors.hpp"
+#include "io/ffmpeg.hpp"
 #include "io/gpmf.hpp"
 #include "vo/base/error.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
 #include <fmt/format.h>
-
-extern "C" {
-#include <libavformat/avformat.h>
-}
 
 namespace vo {
 namespace {
 
 constexpr const char* kForm = "a GoPro's .mp4 with the GPS switched on, or a GPX or CSV file";
 
-struct CloseInput {
-  void operator()(AVFormatContext* format) const { avformat_close_input(&format); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-using Input = std::unique_ptr<AVFormatContext, CloseInput>;
-
-Input opened(const std::string& path) {
+ffmpeg::FormatContext opened(const std::string& path) {
   AVFormatContext* format = nullptr;
   if (avformat_open_input(&format, ("file:" + path).c_str(), nullptr, nullptr) < 0)
     throw Error(path, "is no video that FFmpeg can read", kForm);
-  return Input(format);
+  return ffmpeg::FormatContext(format);
 }
 
 std::span<AVStream* const> streams_of(const AVFormatContext& format) {
@@ -65,7 +53,7 @@ void spread(std::span<const GpmfPosition> piece, double begin_s, double end_s, V
 VideoPositions read_video_positions(const std::filesystem::path& path) {
   const std::string name = path.string();
   const DecoderErrors quiet;  // keeps FFmpeg from printing
-  const Input format = opened(name);
+  const ffmpeg::FormatContext format = opened(name);
   constexpr auto kTelemetry = MKTAG('g', 'p', 'm', 'd');
   const auto streams = streams_of(*format);
   const auto found =
@@ -78,7 +66,7 @@ VideoPositions read_video_positions(const std::filesystem::path& path) {
 
   VideoPositions all;
   constexpr double kUsualPiece_s = 1;
-  const std::unique_ptr<AVPacket, FreePacket> packet(av_packet_alloc());
+  const ffmpeg::Packet packet(av_packet_alloc());
   while (av_read_frame(format.get(), packet.get()) == 0) {
     if (packet->stream_index == (*found)->index && packet->pts != AV_NOPTS_VALUE) {
       const double tick_s = av_q2d((*found)->time_base);

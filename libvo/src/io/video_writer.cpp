@@ -5,7 +5,6 @@
 #include "vo/io/atomic_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -21,18 +20,6 @@ namespace vo {
 namespace {
 
 constexpr int kThreads = 4;  // of the encoder; its bytes depend on their number
-
-std::string reason(int code) {
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  return av_strerror(code, text.data(), text.size()) == 0 ? text.data() : std::string("unknown");
-}
-
-struct FreeOutput {
-  void operator()(AVFormatContext* format) const {
-    avio_closep(&format->pb);
-    avformat_free_context(format);
-  }
-};
 
 }  // namespace
 
@@ -61,7 +48,7 @@ struct VideoWriter::State {
 
   void require(int code) const {
     if (code < 0)
-      throw Error(path, fmt::format("cannot be written: {}", reason(code)),
+      throw Error(path, fmt::format("cannot be written: {}", ffmpeg::reason(code)),
                   "a folder that exists, is writable and has room");
   }
 
@@ -110,7 +97,7 @@ struct VideoWriter::State {
   std::string path;
   cv::Size size;
   AtomicFile file;  ///< outlives what writes to it
-  std::unique_ptr<AVFormatContext, FreeOutput> format;
+  ffmpeg::OutputContext format;
   ffmpeg::CodecContext codec;
   AVStream* stream = nullptr;
   ffmpeg::Packet packet;
