@@ -1,5 +1,6 @@
 #include "command.hpp"
 #include "follow_lines.hpp"
+#include "follow_record.hpp"
 #include "newest_frame.hpp"
 #include "run_directory.hpp"
 
@@ -20,6 +21,7 @@
 #include <place/route/route_database.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
+#include <vo/io/atomic_file.hpp>
 #include <vo/io/frame_source.hpp>
 
 namespace retrace {
@@ -74,10 +76,12 @@ bool is_live(const std::string& walk) {
 void follow(const FollowOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_not_swapped(options.walk, options.route);
-  const place::Route route = place::read_route(options.route, {.view_points = false});
+  const place::Route route =
+      place::read_route(options.route, {.previews = !options.output.empty(), .view_points = false});
   place::Follower follower(route, options.settings, {.lag_s = options.lag_s});
   place::Announcer announcer(route);
-  if (!options.output.empty()) prepare_run_directory(options.output, {"follow.jsonl"}, options.common.force);
+  if (!options.output.empty())
+    prepare_run_directory(options.output, {"follow.jsonl", "report.html"}, options.common.force);
   std::unique_ptr<vo::FrameSource> source = vo::open_frame_source(options.walk, follower.frame_source());
   const vo::FrameSource& opened = *source;
   std::optional<NewestFrame> newest;
@@ -87,6 +91,7 @@ void follow(const FollowOptions& options) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
   Lines lines(options.output);
+  FollowRecord record;
   std::string trouble;
   while (interrupted == 0) {
     std::optional<vo::Frame> frame;
@@ -99,10 +104,13 @@ void follow(const FollowOptions& options) {
     if (!frame) break;
     const place::Position position = follower.push(*frame);
     lines.write(follow_line(position));
+    if (!options.output.empty()) record.push(position, *frame);
     if (!options.announce) continue;
     for (const place::FollowEvent& event : announcer.push(position)) lines.write(event_line(event));
   }
   lines.finish();
+  if (!options.output.empty())
+    vo::write_file(fs::path(options.output) / "report.html", record.page(route, options.walk));
   if (!trouble.empty())
     throw vo::Error(options.walk, trouble, "a source that goes on; what was seen is kept");
   if (newest) {
@@ -124,7 +132,8 @@ std::function<void()> declare_follow(Arguments& arguments) {
       "walk", options->walk,
       "video file, folder of images, camera:N, an rtsp:// address, or - (Y4M on standard input)");
   arguments.option("--route", options->route, "route database").required();
-  arguments.option("-o,--output", options->output, "folder that follow.jsonl is kept in [none]");
+  arguments.option("-o,--output", options->output,
+                   "folder for follow.jsonl and report.html, which plays the walk [none]");
   arguments.option("--lag-s", options->lag_s, "seconds that a second, surer answer looks back by; 0: none")
       .range(0, 60);
   arguments.flag("--announce", options->announce,

@@ -112,7 +112,7 @@ class ReportsTest(unittest.TestCase):
     def all(self, selector):
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
 
-    def open(self, path, charts=0, matrices=0, strips=0):
+    def open(self, path, charts=0, matrices=0, strips=0, players=0):
         """Opens a report and checks what holds for every one of them."""
         self.assertLess(path.stat().st_size, 15e6)
         self.colours("light")
@@ -122,7 +122,7 @@ class ReportsTest(unittest.TestCase):
         fetched = [line for line in self.driver.get_log("performance") if '"Network.requestWillBeSent"' in line["message"]]
         for line in fetched:
             self.assertRegex(line["message"], r'"url":"(file|data|about|chrome):')
-        for kind, count in (("chart", charts), ("matrix", matrices), ("strip", strips)):
+        for kind, count in (("chart", charts), ("matrix", matrices), ("strip", strips), ("player", players)):
             self.assertEqual(len(self.all(f"figure.{kind}[data-drawn=true]")), count, kind)
         for canvas in self.all("canvas"):
             self.assertGreater(self.script(INKED, canvas), 0.002, canvas.get_attribute("aria-label"))
@@ -278,6 +278,38 @@ class ReportsTest(unittest.TestCase):
         check(*evaluate, "--map-image", image)
         self.open(walk / "report.html", charts=3)
         self.assertGreater(self.script(INKED, self.all("canvas")[0]), plain + 0.05)
+
+    def test_follow(self):
+        """Plays by button and keys, and text of the route and of file names is text only."""
+        names, walk = self.folder / "names.csv", self.folder / "<img src=x onerror=alert(1)>.mp4"
+        names.write_text("distance_m,name\n10,<script>alert(1)</script>\n")
+        shutil.copy(self.walks.rain, walk)
+        check("build", self.walks.day, "-o", self.folder / "named.db", "--truth", self.folder / "day/truth.csv", "--places", names,
+              "--name", "</script><script>alert(2)</script>")
+        out = self.folder / "followed"
+        check("follow", walk, "--route", self.folder / "named.db", "-o", out)
+        self.open(out / "report.html", players=1)
+        self.assertEqual(len(self.all("main script:not([type='application/json'])")), 0)
+        figure, canvas = self.all("figure.player")[0], self.all("figure.player canvas")[0]
+        frame = lambda: int(figure.get_attribute("data-frame"))
+        self.assertEqual(frame(), 0)
+        canvas.send_keys(Keys.END)
+        last = frame()
+        self.assertGreater(last, 0)
+        self.assertIn("on the route", figure.find_element(By.CSS_SELECTOR, ".reading").text)
+        for image in figure.find_elements(By.TAG_NAME, "img"):
+            self.assertGreater(self.script("return arguments[0].decode().then(() => arguments[0].naturalWidth)", image), 100)
+        before = self.script(DIGEST, canvas)
+        canvas.send_keys(Keys.ARROW_LEFT)
+        self.assertLess(frame(), last)
+        figure.find_element(By.CSS_SELECTOR, "input[type=range]").send_keys(Keys.HOME)
+        self.assertEqual(frame(), 0)
+        self.assertNotEqual(self.script(DIGEST, canvas), before)
+        canvas.send_keys(Keys.SPACE)
+        self.assertEqual(figure.get_attribute("data-playing"), "true")
+        WebDriverWait(self.driver, 10).until(lambda _: frame() > 0)
+        figure.find_element(By.TAG_NAME, "button").click()
+        self.assertIsNone(figure.get_attribute("data-playing"))
 
     def test_sweep(self):
         check("sweep", self.walks.rain, "--reference", self.walks.day, *self.walks.truth, "--tolerance-m", 2, "-o",

@@ -850,6 +850,7 @@ class CliTest(unittest.TestCase):
         out = self.folder / "out"
         lines = check("follow", self.walks.query, "--route", self.walks.route, "-o", out, "--announce").splitlines()
         self.assertEqual((out / "follow.jsonl").read_text().splitlines(), lines)
+        self.assertIn("data-kind=\"player\"", (out / "report.html").read_text())
         told = [json.loads(line) for line in lines]
         positions = [line for line in told if "state" in line]
         self.assertEqual([line["frame"] for line in positions], list(range(len(self.walks.query_at))))

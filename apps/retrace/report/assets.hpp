@@ -11,6 +11,7 @@ std::string_view chart_js_licence();  ///< its copyright file
 std::string_view charts();            ///< charts.js: figures of lines and points
 std::string_view matrix();            ///< matrix.js: cost matrices
 std::string_view strip();             ///< strip.js: pairs of frames
+std::string_view player();            ///< player.js: followed walks
 std::string_view report();            ///< report.js: draws all figures of the page
 
 }  // namespace retrace::assets

@@ -224,6 +224,10 @@ void Page::strip(std::string_view json, std::string_view caption) {
   figure("strip", "", json, caption);
 }
 
+void Page::player(std::string_view json, std::string_view caption) {
+  figure("player", "", json, caption);
+}
+
 std::string Page::html() const {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -235,7 +239,7 @@ std::string Page::html() const {
     html += fmt::format("<!-- Chart.js, of which this is the licence:\n{}\n-->\n<script>{}</script>\n",
                         without_comment_marks(assets::chart_js_licence()), assets::chart_js());
     for (const std::string_view script :
-         {assets::charts(), assets::matrix(), assets::strip(), assets::report()})
+         {assets::charts(), assets::matrix(), assets::strip(), assets::player(), assets::report()})
       html += fmt::format("<script>\n{}</script>\n", script);
   }
   return html + "</body>\n</html>\n";

@@ -57,6 +57,9 @@ class Page {
   /// Pairs of frames to look through: the JSON that strip.js reads.
   void strip(std::string_view json, std::string_view caption);
 
+  /// A followed walk to play: the JSON that player.js reads.
+  void player(std::string_view json, std::string_view caption);
+
   /// The whole page.
   [[nodiscard]] std::string html() const;
 

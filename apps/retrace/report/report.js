@@ -2,7 +2,7 @@
 'use strict';
 
 (() => {
-  const drawing = {chart: drawChart, matrix: drawMatrix, strip: drawStrip};
+  const drawing = {chart: drawChart, matrix: drawMatrix, strip: drawStrip, player: drawPlayer};
   const drawn = [];
   for (const figure of document.querySelectorAll('figure[data-kind]')) {
     const spec = JSON.parse(figure.querySelector('script[type="application/json"]').textContent);
