@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double rounded(double value, double per_unit) {
+double rounded_to(double value, double per_unit) {
   return std::round(value * per_unit) / per_unit;
 }
 
@@ -18,19 +18,19 @@ constexpr double kMillimetres = 1000, kHundredths = 100, kTenThousandths = 1e4;
 
 double heading_deg(double heading_rad) {
   const double degrees = heading_rad * 180 / std::numbers::pi;
-  return rounded(degrees < 0 ? degrees + 360 : degrees, kHundredths);
+  return rounded_to(degrees < 0 ? degrees + 360 : degrees, kHundredths);
 }
 
 void put_place(ordered_json& json, const place::FollowedPlace& place) {
   json["traverse"] = place.traverse;
   json["reference_frame"] = place.reference_frame;
-  if (place.distance_m) json["distance_m"] = rounded(*place.distance_m, kMillimetres);
-  if (place.sd_m) json["sd_m"] = rounded(*place.sd_m, kMillimetres);
-  json["sd_keyframes"] = rounded(place.sd_keyframes, kMillimetres);
-  json["probability"] = rounded(place.probability, kTenThousandths);
+  if (place.distance_m) json["distance_m"] = rounded_to(*place.distance_m, kMillimetres);
+  if (place.sd_m) json["sd_m"] = rounded_to(*place.sd_m, kMillimetres);
+  json["sd_keyframes"] = rounded_to(place.sd_keyframes, kMillimetres);
+  json["probability"] = rounded_to(place.probability, kTenThousandths);
   if (!place.pose) return;
-  json["x_m"] = rounded(place.pose->x_m, kMillimetres);
-  json["y_m"] = rounded(place.pose->y_m, kMillimetres);
+  json["x_m"] = rounded_to(place.pose->x_m, kMillimetres);
+  json["y_m"] = rounded_to(place.pose->y_m, kMillimetres);
   json["heading_deg"] = heading_deg(place.pose->heading_rad);
 }
 
@@ -38,7 +38,7 @@ void put_place(ordered_json& json, const place::FollowedPlace& place) {
 
 std::string follow_line(const place::Position& position) {
   ordered_json json{{"frame", position.frame},
-                    {"time_s", rounded(position.time_s, kMillimetres)},
+                    {"time_s", rounded_to(position.time_s, kMillimetres)},
                     {"state", place::name_of(position.state)}};
   if (position.place) put_place(json, *position.place);
   if (position.lag_frame) {
@@ -52,10 +52,10 @@ std::string follow_line(const place::Position& position) {
 std::string event_line(const place::FollowEvent& event) {
   ordered_json json{{"event", place::name_of(event.kind)},
                     {"frame", event.frame},
-                    {"time_s", rounded(event.time_s, kMillimetres)}};
+                    {"time_s", rounded_to(event.time_s, kMillimetres)}};
   if (!event.name.empty()) json["name"] = event.name;
-  if (event.distance_m) json["distance_m"] = rounded(*event.distance_m, kHundredths);
-  if (event.turn_deg) json["turn_deg"] = rounded(*event.turn_deg, 1);
+  if (event.distance_m) json["distance_m"] = rounded_to(*event.distance_m, kHundredths);
+  if (event.turn_deg) json["turn_deg"] = rounded_to(*event.turn_deg, 1);
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

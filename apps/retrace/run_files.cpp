@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kDegreesInFiles = 180 / std::numbers::pi;
 
 /// One line for each row, with nine digits, which distinguish all floats.
 std::string matrix_csv(const place::CostMatrix& matrix) {
@@ -171,12 +171,13 @@ constexpr std::array kTrajectoryColumns{
     vo::CsvColumn<Row>{"time_s", [](const Row& r) { return six(r.pose.time_s); }},
     vo::CsvColumn<Row>{"x_m", [](const Row& r) { return six(r.pose.pose.x_m); }},
     vo::CsvColumn<Row>{"y_m", [](const Row& r) { return six(r.pose.pose.y_m); }},
-    vo::CsvColumn<Row>{"heading_deg", [](const Row& r) { return six(r.pose.pose.heading_rad * kDegrees); }},
+    vo::CsvColumn<Row>{"heading_deg",
+                       [](const Row& r) { return six(r.pose.pose.heading_rad * kDegreesInFiles); }},
     vo::CsvColumn<Row>{"cov_xx_m2", [](const Row& r) { return nine(r.pose.covariance[0]); }},
     vo::CsvColumn<Row>{"cov_xy_m2", [](const Row& r) { return nine(r.pose.covariance[1]); }},
     vo::CsvColumn<Row>{"cov_yy_m2", [](const Row& r) { return nine(r.pose.covariance[4]); }},
     vo::CsvColumn<Row>{"heading_sd_deg",
-                       [](const Row& r) { return six(std::sqrt(r.pose.covariance[8]) * kDegrees); }},
+                       [](const Row& r) { return six(std::sqrt(r.pose.covariance[8]) * kDegreesInFiles); }},
     vo::CsvColumn<Row>{"distance_m", [](const Row& r) { return six(r.on_route.distance_m); }},
     vo::CsvColumn<Row>{"lateral_m", [](const Row& r) { return six(r.on_route.right_m); }},
     vo::CsvColumn<Row>{"step_scale", [](const Row& r) { return six(r.step_scale); }},

@@ -17,7 +17,7 @@
 namespace retrace {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kDegreesOfYaw = 180 / std::numbers::pi;
 constexpr double kBlink_s = 0.5;
 
 /// 83.5 s: "1:23.5".
@@ -78,7 +78,7 @@ void add_reference(SideVideo& video, const place::ReferenceMoment& here, SideVie
   cv::Mat warped;  // the picture itself may be shown again
   cv::warpPerspective(picture.image, warped, homography, view.query.size(), cv::INTER_LINEAR);
   view.reference = warped;
-  view.reference_caption += fmt::format("   turned {:+.1f} deg", *here.yaw_rad * kDegrees);
+  view.reference_caption += fmt::format("   turned {:+.1f} deg", *here.yaw_rad * kDegreesOfYaw);
 }
 
 SideView view_of(SideVideo& video, std::size_t frame) {

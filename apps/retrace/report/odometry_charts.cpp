@@ -12,7 +12,7 @@
 namespace retrace {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// Time ranges of consecutive elements that satisfy `shaded`.
 template <typename Shaded>
@@ -86,7 +86,7 @@ std::vector<double> unwrapped_deg(const vo::Trajectory& trajectory) {
   for (const vo::TimedPose& pose : trajectory) {
     sum += headings.empty() ? 0 : vo::wrap_angle_rad(pose.pose.heading_rad - before);
     before = pose.pose.heading_rad;
-    headings.push_back(sum * kDegrees);
+    headings.push_back(sum * kDegreesPerRadian);
   }
   return headings;
 }
