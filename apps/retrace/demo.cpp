@@ -24,7 +24,6 @@ struct DemoOptions {
   std::string output;
   std::uint64_t seed = 1;
   double length_m = 60;
-  bool keep_videos = false;
 };
 
 void demo(const DemoOptions& options) {
@@ -50,9 +49,6 @@ void demo(const DemoOptions& options) {
                                             folder / "vanilla" / "route.db", folder / "vanilla");
   const std::vector<std::uint8_t> png = demo_overview(day, night, vanilla, normalised, options.length_m);
   vo::write_file(folder / "overview.png", {reinterpret_cast<const char*>(png.data()), png.size()});
-  if (!options.keep_videos) {
-    for (const DrawnWalk* drawn : {&day, &night}) fs::remove(drawn->video());
-  }
 
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   const DemoResults results{options.seed, options.length_m,        vanilla,
@@ -70,11 +66,13 @@ std::function<void()> declare_demo(Arguments& arguments) {
   arguments.option("-o,--output", options->output, "folder for all of it").required();
   arguments.option("--seed", options->seed, "the street");
   arguments.option("--length-m", options->length_m, "metres of street");
-  arguments.flag("--keep-videos", options->keep_videos, "leave the two videos there");
   arguments.settings(options->settings, {place::SettingGroup::kGeneral});
   arguments.common(options->common);
   arguments.footer(
-      "The same by hand, with --keep-videos:\n"
+      "Then, with the same walks:\n"
+      "  retrace video demo/normalised -o side.mp4 --reference demo/day/walk.mp4\n"
+      "  retrace follow demo/night/walk.mp4 --route demo/route.db -o followed\n"
+      "By hand:\n"
       "  retrace build demo/day/walk.mp4 -o again.db --motion steps --descriptor thumbnail \\\n"
       "    --truth demo/day/truth.csv\n"
       "  retrace localise demo/night/walk.mp4 --route again.db -o again\n"

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <place/version.hpp>
+#include <vo/base/degrees.hpp>
 #include <vo/io/atomic_file.hpp>
 #include <vo/io/csv_columns.hpp>
 #include <vo/io/trajectory_io.hpp>
@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// The unit of displacements: without steps, visual odometry has its own unit, and alignment error has
 /// seconds at mean speed.
@@ -87,7 +85,7 @@ constexpr std::array kFrameColumns{
     vo::CsvColumn<F>{"orientation_deg", [](const F& r) { return six_or_empty(r.tracked.orientation_deg); }},
     vo::CsvColumn<F>{"dx_px", [](const F& r) { return six_or_empty(r.tracked.shift_px); }},
     vo::CsvColumn<F>{"matches", [](const F& r) { return std::to_string(r.tracked.matches); }},
-    vo::CsvColumn<F>{"heading_deg", [](const F& r) { return six(r.heading_rad * kDegrees); }},
+    vo::CsvColumn<F>{"heading_deg", [](const F& r) { return six(r.heading_rad * vo::kDegPerRad); }},
     vo::CsvColumn<F>{"step_signal", [](const F& r) { return six(r.signal); }},
     vo::CsvColumn<F>{"step_threshold", [](const F& r) { return six(r.threshold); }},
     vo::CsvColumn<F>{"reliable", [](const F& r) { return std::string(r.reliable ? "1" : "0"); }},
@@ -144,7 +142,7 @@ constexpr std::array kStepColumns{
                      [](const S& r) { return std::string(r.step.leg == vo::Leg::kLeft ? "left" : "right"); }},
     vo::CsvColumn<S>{"x_m", [](const S& r) { return six(r.pose.x_m); }},
     vo::CsvColumn<S>{"y_m", [](const S& r) { return six(r.pose.y_m); }},
-    vo::CsvColumn<S>{"heading_deg", [](const S& r) { return six(r.heading_rad * kDegrees); }},
+    vo::CsvColumn<S>{"heading_deg", [](const S& r) { return six(r.heading_rad * vo::kDegPerRad); }},
     vo::CsvColumn<S>{"length_m", [](const S& r) { return six(r.length_m); }},
     vo::CsvColumn<S>{"bridged", [](const S& r) { return std::string(r.step.bridged ? "1" : "0"); }},
 };

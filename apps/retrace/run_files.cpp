@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include <place/match/walk_gaps.hpp>
 #include <place/route/geographic.hpp>
 #include <place/version.hpp>
+#include <vo/base/degrees.hpp>
 #include <vo/io/atomic_file.hpp>
 #include <vo/io/csv_columns.hpp>
 #include <vo/io/trajectory_io.hpp>
@@ -28,8 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-constexpr double kDegreesInFiles = 180 / std::numbers::pi;
 
 /// One line for each row, with nine digits, which distinguish all floats.
 std::string matrix_csv(const place::CostMatrix& matrix) {
@@ -172,12 +170,12 @@ constexpr std::array kTrajectoryColumns{
     vo::CsvColumn<Row>{"x_m", [](const Row& r) { return six(r.pose.pose.x_m); }},
     vo::CsvColumn<Row>{"y_m", [](const Row& r) { return six(r.pose.pose.y_m); }},
     vo::CsvColumn<Row>{"heading_deg",
-                       [](const Row& r) { return six(r.pose.pose.heading_rad * kDegreesInFiles); }},
+                       [](const Row& r) { return six(r.pose.pose.heading_rad * vo::kDegPerRad); }},
     vo::CsvColumn<Row>{"cov_xx_m2", [](const Row& r) { return nine(r.pose.covariance[0]); }},
     vo::CsvColumn<Row>{"cov_xy_m2", [](const Row& r) { return nine(r.pose.covariance[1]); }},
     vo::CsvColumn<Row>{"cov_yy_m2", [](const Row& r) { return nine(r.pose.covariance[4]); }},
     vo::CsvColumn<Row>{"heading_sd_deg",
-                       [](const Row& r) { return six(std::sqrt(r.pose.covariance[8]) * kDegreesInFiles); }},
+                       [](const Row& r) { return six(std::sqrt(r.pose.covariance[8]) * vo::kDegPerRad); }},
     vo::CsvColumn<Row>{"distance_m", [](const Row& r) { return six(r.on_route.distance_m); }},
     vo::CsvColumn<Row>{"lateral_m", [](const Row& r) { return six(r.on_route.right_m); }},
     vo::CsvColumn<Row>{"step_scale", [](const Row& r) { return six(r.step_scale); }},

@@ -7,7 +7,6 @@
 
 #include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
-#include <vo/io/camera_calibration.hpp>
 
 namespace retrace {
 namespace {
@@ -60,10 +59,11 @@ vo::FrameSourceOptions reading_of(const place::Settings& settings) {
 }
 
 vo::Camera camera_of(const place::Settings& settings, int width_px, int height_px) {
-  constexpr double kUsualView_deg = 64.4;  // PVO 5.3
-  std::optional<vo::Camera> calibrated;
-  if (settings.camera) calibrated = vo::read_camera_calibration(*settings.camera);
-  return vo::camera_of_recording(calibrated, width_px, height_px, settings.fov_deg.value_or(kUsualView_deg));
+  place::Settings camera;
+  camera.fov_deg = settings.fov_deg;
+  camera.camera = settings.camera;
+  const vo::FeatureTrackerOptions tracker = place::stage_options(camera).walk.tracker;
+  return vo::camera_of_recording(tracker.camera, width_px, height_px, tracker.fov_deg);
 }
 
 std::optional<Recording> recording_near(const fs::path& route, const place::Traverse& traverse) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include <vo/base/degrees.hpp>
 #include <vo/base/median.hpp>
 #include <vo/geometry/turned_view.hpp>
 #include <vo/io/video_writer.hpp>
@@ -17,7 +18,6 @@
 namespace retrace {
 namespace {
 
-constexpr double kDegreesOfYaw = 180 / std::numbers::pi;
 constexpr double kBlink_s = 0.5;
 
 /// 83.5 s: "1:23.5".
@@ -56,11 +56,6 @@ std::string end_of(const place::Route& route, const place::Traverse& traverse) {
                       : fmt::format("{} keyframes", traverse.keyframes.size());
 }
 
-/// The camera for a picture that was made smaller.
-vo::Camera for_picture(const vo::Camera& camera, const cv::Mat& picture) {
-  return vo::resized(camera, picture.cols);
-}
-
 /// The reference's side of the view.
 void add_reference(SideVideo& video, const place::ReferenceMoment& here, SideView& view) {
   const place::Traverse& traverse = video.route.traverses[here.traverse];
@@ -73,12 +68,13 @@ void add_reference(SideVideo& video, const place::ReferenceMoment& here, SideVie
   const bool turned =
       video.query_camera && shown.camera && here.yaw_rad && std::abs(*here.yaw_rad) < std::numbers::pi / 2;
   if (!turned) return;
-  const cv::Matx33d homography = vo::turned_view(for_picture(*shown.camera, picture.image),
-                                                 for_picture(*video.query_camera, view.query), *here.yaw_rad);
+  const cv::Matx33d homography =
+      vo::turned_view(vo::resized(*shown.camera, picture.image.cols),
+                      vo::resized(*video.query_camera, view.query.cols), *here.yaw_rad);
   cv::Mat warped;  // the picture itself may be shown again
   cv::warpPerspective(picture.image, warped, homography, view.query.size(), cv::INTER_LINEAR);
   view.reference = warped;
-  view.reference_caption += fmt::format("   turned {:+.1f} deg", *here.yaw_rad * kDegreesOfYaw);
+  view.reference_caption += fmt::format("   turned {:+.1f} deg", *here.yaw_rad * vo::kDegPerRad);
 }
 
 SideView view_of(SideVideo& video, std::size_t frame) {

@@ -1,8 +1,25 @@
 #include "survey_files.hpp"
 
+#include <filesystem>
+
+#include <fmt/format.h>
+
 #include <place/stage_options.hpp>
+#include <vo/base/error.hpp>
 
 namespace retrace {
+namespace {
+
+/// The file with the track: of `--track video`, the walk's own.
+std::string track_file(const std::string& track, const vo::Walk& walk) {
+  if (track != "video") return track;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(walk.source, ignored))
+    throw vo::Error("--track video", fmt::format("is given for {}", walk.source), "a walk of one video file");
+  return walk.source;
+}
+
+}  // namespace
 
 void declare_survey(Arguments& arguments, SurveyFiles& files) {
   const Argument truth =
@@ -51,7 +68,7 @@ std::optional<place::Survey> read_survey(const SurveyFiles& files, const place::
   if (files.track.empty()) return {};
   form.start_s = files.track_start_s;
   form.track_name = files.track_name;
-  return place::survey_from_track(files.track == "video" ? walk.source : files.track, walk, route, form);
+  return place::survey_from_track(track_file(files.track, walk), walk, route, form);
 }
 
 }  // namespace retrace

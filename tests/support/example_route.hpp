@@ -91,6 +91,13 @@ inline void expect_equal(const place::Traverse& a, const place::Traverse& b) {
             std::get<place::FloatRows>(b.descriptors[1]).values);
   EXPECT_EQ(std::get<vo::ImageStack>(a.descriptors[2]).pixels,
             std::get<vo::ImageStack>(b.descriptors[2]).pixels);
+  EXPECT_EQ(a.view_points, b.view_points);
+  ASSERT_EQ(a.places.size(), b.places.size());
+  for (std::size_t i = 0; i < a.places.size(); ++i) {
+    EXPECT_EQ(a.places[i].name, b.places[i].name);
+    EXPECT_EQ(a.places[i].frame, b.places[i].frame);
+    EXPECT_EQ(a.places[i].distance_m, b.places[i].distance_m);
+  }
   ASSERT_EQ(a.keyframes.size(), b.keyframes.size());
   for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
     const place::Keyframe &j = a.keyframes[i], &k = b.keyframes[i];

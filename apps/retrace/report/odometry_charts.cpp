@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <vo/base/degrees.hpp>
 #include <vo/base/frame_range.hpp>
 
 namespace retrace {
 namespace {
-
-constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// Time ranges of consecutive elements that satisfy `shaded`.
 template <typename Shaded>
@@ -86,7 +84,7 @@ std::vector<double> unwrapped_deg(const vo::Trajectory& trajectory) {
   for (const vo::TimedPose& pose : trajectory) {
     sum += headings.empty() ? 0 : vo::wrap_angle_rad(pose.pose.heading_rad - before);
     before = pose.pose.heading_rad;
-    headings.push_back(sum * kDegreesPerRadian);
+    headings.push_back(sum * vo::kDegPerRad);
   }
   return headings;
 }

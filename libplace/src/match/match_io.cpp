@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <vo/base/degrees.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/csv_columns.hpp>
 
 namespace place {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr const char* kNumber = "a finite number";
 constexpr const char* kIndex = "a whole number, 0 or greater";
 
@@ -105,12 +104,12 @@ constexpr std::array kColumns{
         kNumber, false},
     Column{"yaw_deg",
            [](const Match& m) {
-             return m.yaw_rad ? fmt::format("{:.2f}", *m.yaw_rad * kDegrees) : std::string();
+             return m.yaw_rad ? fmt::format("{:.2f}", *m.yaw_rad * vo::kDegPerRad) : std::string();
            },
            [](Match& m, std::string_view cell) {
              if (cell.empty()) return true;
              const bool read = read_number(cell, m.yaw_rad.emplace());
-             *m.yaw_rad /= kDegrees;
+             *m.yaw_rad /= vo::kDegPerRad;
              return read;
            },
            kNumber, false},

@@ -1,17 +1,15 @@
 #include "place/route/geographic.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include <vo/base/degrees.hpp>
 #include <vo/base/iso_time.hpp>
 
 namespace place {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 /// Metres of a degree to the north and to the east at a latitude: the ellipsoid's radii of curvature.
 struct DegreeLength {
@@ -23,11 +21,11 @@ DegreeLength degree_length(double latitude_deg) {
     throw std::invalid_argument("geographic: latitudes up to 89 degrees expected");
   constexpr double kEquator_m = 6378137, kFlattening = 1 / 298.257223563;  // WGS 84
   constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
-  const double s = std::sin(latitude_deg * kRadPerDeg);
+  const double s = std::sin(latitude_deg * vo::kRadPerDeg);
   const double w2 = 1 - kEccentricity2 * s * s;
   const double normal_m = kEquator_m / std::sqrt(w2);
-  return {normal_m * (1 - kEccentricity2) / w2 * kRadPerDeg,
-          normal_m * std::cos(latitude_deg * kRadPerDeg) * kRadPerDeg};
+  return {normal_m * (1 - kEccentricity2) / w2 * vo::kRadPerDeg,
+          normal_m * std::cos(latitude_deg * vo::kRadPerDeg) * vo::kRadPerDeg};
 }
 
 void check(const vo::Trajectory& trajectory, PoseProbabilities probability) {

@@ -144,11 +144,10 @@ Finding pauses(const RecordingFacts& facts) {
 }
 
 Finding overlap(const RecordingFacts& facts) {
-  constexpr double kLittle_s = 0.19;  // as `build` warns
   if (facts.common_view_s <= 0)
     return {"overlap", Fitness::kUnfit, "no motion can be learned from its views",
             "a higher frame rate, or --motion none"};
-  if (facts.common_view_s >= kLittle_s)
+  if (facts.common_view_s >= kLeastCommonView_s)
     return {"overlap", Fitness::kGood, "views in succession have enough in common", {}};
   return {"overlap", Fitness::kWithCare,
           fmt::format("views more than {:.2f} s apart have nothing in common", facts.common_view_s),

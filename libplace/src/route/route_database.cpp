@@ -2,6 +2,7 @@
 
 #include "place/version.hpp"
 #include "route/descriptor_rows.hpp"
+#include "route/optional_tables.hpp"
 #include "route/sqlite.hpp"
 
 #include <algorithm>
@@ -66,20 +67,6 @@ CREATE TABLE preview(
   PRIMARY KEY(traverse, position));
 )sql";
 
-// Only where points were kept: other routes are as if there were none, and older ones have no such table.
-constexpr const char* kPointsSchema = R"sql(
-CREATE TABLE view_points(
-  traverse INTEGER NOT NULL REFERENCES traverse, position INTEGER NOT NULL, checksum INTEGER NOT NULL,
-  bytes BLOB NOT NULL, PRIMARY KEY(traverse, position));
-)sql";
-
-// Likewise, only where places have names.
-constexpr const char* kPlacesSchema = R"sql(
-CREATE TABLE named_place(
-  traverse INTEGER NOT NULL REFERENCES traverse, position INTEGER NOT NULL, name TEXT NOT NULL,
-  frame INTEGER NOT NULL, distance_m REAL, PRIMARY KEY(traverse, position)) WITHOUT ROWID;
-)sql";
-
 void check(const Route& route) {
   std::set<std::string> names;
   for (const Traverse& traverse : route.traverses) {
@@ -112,61 +99,6 @@ Settings read_settings(Statement& rows, const std::string& path) {
     }
   }
   return settings;
-}
-
-void write_points(const Database& database, std::int64_t id, const std::vector<Bytes>& points) {
-  if (points.empty()) return;
-  Statement row = database.prepare("INSERT INTO view_points VALUES(?,?,?,?)");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::span<const std::uint8_t> bytes = points[i];
-    row.bind(id).bind(static_cast<std::int64_t>(i)).bind(checksum(bytes)).bind(bytes).execute();
-  }
-}
-
-bool has_table(const Database& database, std::string_view name) {
-  return database.prepare("SELECT 1 FROM sqlite_master WHERE name = ?").bind(name).step();
-}
-
-void write_places(const Database& database, std::int64_t id, const std::vector<NamedPlace>& places) {
-  if (places.empty()) return;
-  Statement row = database.prepare("INSERT INTO named_place VALUES(?,?,?,?,?)");
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const NamedPlace& place = places[i];
-    row.bind(id).bind(static_cast<std::int64_t>(i)).bind(place.name).bind(place.frame);
-    row.bind(place.distance_m).execute();
-  }
-}
-
-std::vector<NamedPlace> read_places(const Database& database, std::int64_t id) {
-  std::vector<NamedPlace> places;
-  if (!has_table(database, "named_place")) return places;
-  Statement row = database.prepare(
-      "SELECT name, frame, distance_m FROM named_place WHERE traverse = ? ORDER BY position");
-  row.bind(id);
-  while (row.step()) {
-    NamedPlace& place = places.emplace_back();
-    place.name = row.text();
-    place.frame = row.integer();
-    place.distance_m = row.optional_real();
-  }
-  return places;
-}
-
-std::vector<Bytes> read_points(const Database& database, const std::string& path, std::int64_t id,
-                               std::size_t keyframes) {
-  std::vector<Bytes> points;
-  if (!has_table(database, "view_points")) return points;
-  Statement row =
-      database.prepare("SELECT checksum, bytes FROM view_points WHERE traverse = ? ORDER BY position");
-  row.bind(id);
-  while (row.step()) {
-    const std::int64_t expected = row.integer();
-    const std::span<const std::uint8_t> bytes = row.blob();
-    if (checksum(bytes) != expected) damaged(path, "the points of a keyframe do not fit their checksum");
-    points.emplace_back(bytes.begin(), bytes.end());
-  }
-  if (!points.empty() && points.size() != keyframes) damaged(path, "points of keyframes are missing");
-  return points;
 }
 
 void write_traverse(const Database& database, std::int64_t id, const Traverse& traverse) {
@@ -204,8 +136,7 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
     if (!k.preview_jpeg.empty()) preview.bind(id).bind(position).bind(std::span(k.preview_jpeg)).execute();
   }
 
-  write_points(database, id, traverse.view_points);
-  write_places(database, id, traverse.places);
+  optional_tables::write(database, id, traverse);
   Statement thumbnails = database.prepare("INSERT INTO thumbnail_chunk VALUES(?,?,?,?)");
   write_chunks(thumbnails, traverse.thumbnails.pixels, traverse.thumbnails.image_size(),
                traverse.thumbnails.size(), [&](Statement& chunk) { chunk.bind(id); });
@@ -275,8 +206,9 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     }
   }
 
-  traverse.places = read_places(database, id);
-  if (options.view_points) traverse.view_points = read_points(database, path, id, traverse.keyframes.size());
+  traverse.places = optional_tables::read_places(database, id);
+  if (options.view_points)
+    traverse.view_points = optional_tables::read_points(database, path, id, traverse.keyframes.size());
 
   if (options.previews && width > 0) {
     traverse.thumbnails =
@@ -384,8 +316,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
                              kRouteSchemaVersion));
     database.run("BEGIN");
     database.run(kSchema);
-    if (has_view_points(route)) database.run(kPointsSchema);
-    if (has_named_places(route)) database.run(kPlacesSchema);
+    optional_tables::create(database, route);
     database.prepare("INSERT INTO route VALUES(?,?,?,?,?,?)")
         .bind(std::string_view(kVersion))
         .bind(route.unit)

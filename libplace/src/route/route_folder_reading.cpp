@@ -4,6 +4,7 @@
 #include "route/descriptor_rows.hpp"
 #include "route/route_folder_names.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -40,11 +41,12 @@ void bytes_from(const fs::path& file, std::size_t rows, std::size_t width, std::
   }
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const float value = read.values[i];
-    bytes[i] = static_cast<Byte>(value);
-    if (static_cast<float>(bytes[i]) != value || value < std::numeric_limits<Byte>::min() ||
-        value > std::numeric_limits<Byte>::max())
+    const bool whole = value >= std::numeric_limits<Byte>::min() &&
+                       value <= std::numeric_limits<Byte>::max() && value == std::trunc(value);
+    if (!whole)
       throw vo::Error(file.string(), fmt::format("holds {}", value),
-                      sizeof(Byte) == 1 && std::numeric_limits<Byte>::is_signed ? "int8" : "uint8");
+                      std::numeric_limits<Byte>::is_signed ? "int8" : "uint8");
+    bytes[i] = static_cast<Byte>(value);
   }
 }
 

@@ -18,12 +18,12 @@ namespace {
 
 /// A warning if a walk's frames are too far apart for its motion to be learned well.
 std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionModel& model) {
-  constexpr double kLittle_s = 0.19;  // five of the spans of 0.04 s over which frames are compared
-  if (model.separation.back() >= kLittle_s) return {};
-  return {fmt::format(
-      "{}: frames more than {:.2f} s apart have nothing in common, so motion is told poorly; a higher frame "
-      "rate, or motion none, may do better",
-      walk.source, model.separation.back())};
+  if (model.separation.back() >= kLeastCommonView_s) return {};
+  return {
+      fmt::format("{}: frames more than {:.2f} s apart have nothing in common, so motion is learned poorly; "
+                  "a higher frame "
+                  "rate, or motion none, may do better",
+                  walk.source, model.separation.back())};
 }
 
 /// Where one walk is in metres and the other is not (steps were seen in one of them only), both are assumed

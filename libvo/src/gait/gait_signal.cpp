@@ -1,20 +1,19 @@
 #include "vo/gait/gait_signal.hpp"
 
 #include "vo/base/clock.hpp"
+#include "vo/base/degrees.hpp"
 #include "vo/base/median.hpp"
 #include "vo/base/trajectory.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
 namespace vo {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kSlowestBounce_hz = 1;  // one a step, two in a stride
 
 double mean(std::span<const double> values) {
@@ -56,7 +55,7 @@ FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const Frame
   const double frames = tracks.span;
   const bool by_median = options.average == Average::kMedian;
   motion.orientation_deg =
-      (by_median ? median(rotations_rad) : mean_angle_rad(rotations_rad)) * kDegrees / frames;
+      (by_median ? median(rotations_rad) : mean_angle_rad(rotations_rad)) * kDegPerRad / frames;
   motion.shift_px = (by_median ? median(shifts_px) : mean(shifts_px)) / frames;
   motion.picture = picture_motion(tracks.points, camera.width_px, camera.height_px);
   if (motion.picture) {

@@ -1,5 +1,6 @@
 #include "vo/io/trajectory_io.hpp"
 
+#include "vo/base/degrees.hpp"
 #include "vo/base/error.hpp"
 #include "vo/io/csv.hpp"
 #include "vo/io/pose_series_io.hpp"
@@ -11,8 +12,6 @@
 
 namespace vo {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 /// Headings turn clockwise from +y, yaw counter-clockwise from +x.
 double yaw_from_heading(double heading_rad) {

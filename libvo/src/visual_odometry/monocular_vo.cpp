@@ -1,5 +1,6 @@
 #include "vo/visual_odometry/monocular_vo.hpp"
 
+#include "vo/base/degrees.hpp"
 #include "vo/image/grey.hpp"
 #include "vo/visual_odometry/landmark_tracking.hpp"
 #include "vo/visual_odometry/scene_start.hpp"
@@ -7,15 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace vo {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 SceneTrackingOptions scene_options(const MonocularVoOptions& options, const Camera& camera) {
   const double noise = options.noise_px / camera.fx_px;

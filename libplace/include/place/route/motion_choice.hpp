@@ -18,8 +18,7 @@ double share_of_gait(const vo::PedestrianMotion& motion);
 
 /// Chooses what `motion auto` is for a route's first walk: `steps` if at least half of its motion is gait,
 /// `sad` otherwise, as when the frame rate is too low to see steps. The same rule lets hybrid motion use
-/// steps
-/// (`walk_motion`); neither paper has one.
+/// steps (`walk_motion`); neither paper has one.
 ///
 /// `resolved`: settings with motion auto. Settings that only the other motion uses are dropped.
 /// `odometry`: how steps are read. Throws `vo::Error` naming the walk if it shows no gait and only

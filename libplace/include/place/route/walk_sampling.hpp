@@ -16,6 +16,10 @@
 
 namespace place {
 
+/// Seconds of walking for which views should have something in common, for their motion to be learned well:
+/// five of the spans of 0.04 s over which frames are compared, less rounding.
+inline constexpr double kLeastCommonView_s = 0.19;
+
 /// Settings of `sample_walk`.
 struct WalkSamplingOptions {
   vo::WalkMotionOptions motion;

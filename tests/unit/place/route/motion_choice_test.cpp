@@ -70,7 +70,7 @@ TEST(ChooseMotion, IsStepsWhereMostOfTheMotionIsGait) {
 }
 
 TEST(ChooseMotion, IsAlignmentErrorWhereItIsNot) {
-  for (const vo::Walk& walk : {walk_of(10, 60), walk_of(0, 20), walk_of(20, 0, 5)}) {
+  for (const vo::Walk& walk : {walk_of(10, 60), walk_of(30, 60), walk_of(0, 20), walk_of(20, 0, 5)}) {
     const place::MotionChoice choice = place::choose_motion(automatic(), walk, {});
     EXPECT_EQ(choice.settings.motion, "sad");
     EXPECT_LT(choice.gait_share, 0.5);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,8 +44,6 @@ TEST(RouteFolder, RoundTripsEverythingToTheSameDatabase) {
   place::write_route_folder(folder / "out", route);
   const place::Route back = place::read_route_folder(folder / "out");
   expect_equal(back, route);
-  for (std::size_t t = 0; t < route.traverses.size(); ++t)
-    EXPECT_EQ(back.traverses[t].view_points, route.traverses[t].view_points) << t;
   // Equal routes give equal bytes, so this compares what expect_equal might forget.
   place::write_route(folder / "a.db", route);
   place::write_route(folder / "b.db", back);
@@ -105,10 +104,12 @@ TEST(RouteFolder, SaysWhichFileDoesNotFit) {
               HasSubstr("descriptors.csv: names 0 descriptors; expected 3"));
   EXPECT_THAT(with(day / "keyframes.csv", read_file(out / "traverse-4" / "keyframes.csv")),
               HasSubstr("600 x"));  // one keyframe, and descriptors of six hundred
-  place::write_npy(folder / "large.npy",
-                   place::FloatRows{.width = 10, .values = std::vector<float>(6000, 200)});
-  EXPECT_THAT(with(day / "descriptors-1.npy", read_file(folder / "large.npy")),
-              HasSubstr("descriptors-1.npy: holds 200; expected int8"));
+  for (const float value : {200.0F, -129.0F, 0.5F, 1e30F}) {
+    place::write_npy(folder / "other.npy",
+                     place::FloatRows{.width = 10, .values = std::vector<float>(6000, value)});
+    EXPECT_THAT(with(day / "descriptors-1.npy", read_file(folder / "other.npy")),
+                HasSubstr(fmt::format("descriptors-1.npy: holds {}; expected int8", value)));
+  }
   fs::remove(day / "preview-000000.jpg");
   EXPECT_THAT(refusal(out), HasSubstr("preview-000000.jpg: cannot be read"));
 }
