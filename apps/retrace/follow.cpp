@@ -1,10 +1,14 @@
 #include "command.hpp"
 #include "follow_lines.hpp"
+#include "follow_page.hpp"
 #include "follow_record.hpp"
+#include "follow_view.hpp"
 #include "newest_frame.hpp"
 #include "run_directory.hpp"
 
+#include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -39,6 +44,8 @@ struct FollowOptions {
   std::string output;
   double lag_s = 0;
   bool announce = false;
+  std::optional<std::size_t> view;
+  std::string view_address = FollowViewOptions{}.address;
 };
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -76,13 +83,21 @@ bool is_live(const std::string& walk) {
 void follow(const FollowOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_not_swapped(options.walk, options.route);
-  const place::Route route =
-      place::read_route(options.route, {.previews = !options.output.empty(), .view_points = false});
+  const bool shown = !options.output.empty() || options.view;
+  const place::Route route = place::read_route(options.route, {.previews = shown, .view_points = false});
   place::Follower follower(route, options.settings, {.lag_s = options.lag_s});
   place::Announcer announcer(route);
   if (!options.output.empty())
     prepare_run_directory(options.output, {"follow.jsonl", "report.html"}, options.common.force);
-  std::unique_ptr<vo::FrameSource> source = vo::open_frame_source(options.walk, follower.frame_source());
+  std::optional<FollowView> view;
+  if (options.view) {
+    view.emplace(route, options.walk,
+                 FollowViewOptions{options.view_address, static_cast<int>(*options.view)});
+    fmt::print(stderr, "the page is at {}\n", view->url());
+  }
+  vo::FrameSourceOptions reading = follower.frame_source();
+  if (shown) reading.colour_width_px = std::max(reading.colour_width_px, kFollowPicture_px);
+  std::unique_ptr<vo::FrameSource> source = vo::open_frame_source(options.walk, reading);
   const vo::FrameSource& opened = *source;
   std::optional<NewestFrame> newest;
   if (is_live(options.walk)) newest.emplace(std::move(source));
@@ -105,8 +120,10 @@ void follow(const FollowOptions& options) {
     const place::Position position = follower.push(*frame);
     lines.write(follow_line(position));
     if (!options.output.empty()) record.push(position, *frame);
+    const std::vector<place::FollowEvent> events = announcer.push(position);
+    if (view) view->push(position, *frame, events);
     if (!options.announce) continue;
-    for (const place::FollowEvent& event : announcer.push(position)) lines.write(event_line(event));
+    for (const place::FollowEvent& event : events) lines.write(event_line(event));
   }
   lines.finish();
   if (!options.output.empty())
@@ -139,6 +156,15 @@ std::function<void()> declare_follow(Arguments& arguments) {
   arguments.flag("--announce", options->announce,
                  "events as lines of their own: found, left_route, back_on_route, turn_ahead, passing, "
                  "end_of_route");
+  const Argument view =
+      arguments
+          .option("--view", options->view,
+                  "port at which this machine's browser sees the walk; 0: any, which is printed")
+          .range(0, 65535);
+  arguments
+      .option("--view-address", options->view_address,
+              "address to serve the page at; another than the default is for others to see it too")
+      .needs(view);
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kGeneral}, {"preview-width-px", "view-points"});
   arguments.force(options->common);

@@ -13,6 +13,7 @@ import unittest
 import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from support.live_follow import LiveFollow, video_y4m  # noqa: E402
 from support.retrace_cli import check  # noqa: E402
 
 SKIPPED = 77
@@ -54,14 +55,18 @@ def browser():
     options = Options()
     options.binary_location = CHROMIUM
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1200,1000",
-                     "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE localhost"):
+                     "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE localhost , EXCLUDE 127.0.0.1"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     driver = webdriver.Chrome(service=Service(CHROMEDRIVER), options=options)
     driver.execute_cdp_cmd("Network.enable", {})
-    driver.execute_cdp_cmd("Network.emulateNetworkConditions",
-                           {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
+    network(driver, False)
     return driver
+
+
+def network(driver, on):
+    driver.execute_cdp_cmd("Network.emulateNetworkConditions",
+                           {"offline": not on, "latency": 0, "downloadThroughput": -1 if on else 0, "uploadThroughput": -1 if on else 0})
 
 
 def chequers(width, height, side=10):
@@ -310,6 +315,66 @@ class ReportsTest(unittest.TestCase):
         WebDriverWait(self.driver, 10).until(lambda _: frame() > 0)
         figure.find_element(By.TAG_NAME, "button").click()
         self.assertIsNone(figure.get_attribute("data-playing"))
+
+    def test_live(self):
+        """The page of a walk that goes on: moments come, an earlier one can be looked at, and the end is said."""
+        names = self.folder / "stops.csv"
+        names.write_text("distance_m,name\n5,<img src=x onerror=alert(1)>\n19,\"bakery & \"\"bench\"\"\"\n")
+        check("build", self.walks.day, "-o", self.folder / "live.db", "--truth", self.folder / "day/truth.csv", "--places", names,
+              "--name", "</script><script>alert(2)</script>")
+        live = LiveFollow(video_y4m(self.walks.rain), self.folder / "live.db")
+        self.addCleanup(live.stop)
+        network(self.driver, True)
+        self.addCleanup(network, self.driver, False)
+        self.addCleanup(self.driver.get_log, "performance")
+        self.colours("light")
+        self.driver.get_log("browser")
+        self.driver.get_log("performance")
+        self.driver.get(live.url)
+        figure, canvas = self.all("figure.player")[0], self.all("figure.player canvas")[0]
+        slider, status = (figure.find_element(By.CSS_SELECTOR, selector) for selector in ("input[type=range]", ".status"))
+        until = lambda true, text: WebDriverWait(self.driver, 30).until(lambda _: true(), text)
+        frame = lambda: int(figure.get_attribute("data-frame") or -1)
+        until(lambda: figure.get_attribute("data-live") == "open", "no connection")
+        self.assertGreater(self.script(INKED, canvas), 0.002)  # the route, before anything is known of the walk
+        half = len(live.pictures) // 2
+        live.feed(live.pictures[:half], rate_hz=60)
+        until(lambda: frame() > half - 30, "the newest moment is not shown")
+        self.assertIn("on the route", figure.find_element(By.CSS_SELECTOR, ".reading").text)
+        for image in figure.find_elements(By.TAG_NAME, "img"):
+            self.assertGreater(self.script("return arguments[0].decode().then(() => arguments[0].naturalWidth)", image), 100)
+        self.nothing_sticks_out(1200)
+        self.screenshot("live")
+        # An earlier moment stays while others come, and End goes on with what is now.
+        slider.send_keys(Keys.HOME)
+        earlier, before = frame(), self.script(DIGEST, canvas)
+        self.assertLess(earlier, half)
+        live.feed_on(pictures=live.pictures[half:], rate_hz=25)
+        length = int(slider.get_attribute("max"))
+        until(lambda: int(slider.get_attribute("max")) > length + 5, "no more moments come")
+        self.assertEqual(frame(), earlier)
+        canvas.send_keys(Keys.END)
+        until(lambda: frame() > half and frame() > earlier, "what is now is not shown")
+        self.assertNotEqual(self.script(DIGEST, canvas), before)
+        said = set()
+        until(lambda: said.add(status.text) or any("bakery" in text for text in said), "the place's name is not said")
+        self.assertIn('passing bakery & "bench"', said)
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": PHONE, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+        shown = frame()
+        until(lambda: frame() > shown, "no more moments come")
+        self.nothing_sticks_out(PHONE)
+        self.assertGreater(self.script(INKED, canvas), 0.002)
+        self.screenshot("phone-live", PHONE)
+        live.feeder.join()
+        self.assertEqual(live.finish(), 0, live.messages)
+        until(lambda: figure.get_attribute("data-live") == "ended", "the end is not said")
+        self.assertEqual(status.text, "the walk has ended")
+        self.assertEqual([entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"], [])
+        self.assertEqual(len(self.all("main script:not([type='application/json'])")), 0)
+        for line in self.driver.get_log("performance"):
+            if '"Network.requestWillBeSent"' in line["message"]:
+                self.assertRegex(line["message"], rf'"url":"({live.url}|data:)')
 
     def test_sweep(self):
         check("sweep", self.walks.rain, "--reference", self.walks.day, *self.walks.truth, "--tolerance-m", 2, "-o",

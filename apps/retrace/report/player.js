@@ -3,6 +3,7 @@
 
 const STATE_TEXTS = {searching: 'searching', on_route: 'on the route', off_route: 'off the route'};
 const PLAYER_MARGIN_PX = 24;
+const KEPT_LIVE = 1800;  // moments, at most ten a second
 
 /** The scale and shift that bring points into a canvas, the same in both directions. */
 function fitted(points, width, height) {
@@ -30,7 +31,22 @@ function clearedPen(canvas, height) {
   return pen;
 }
 
-/** Fills `figure`. Without poses, the route is a straight line of its keyframes. */
+/** What the follower announced, in words. */
+function announcement(said) {
+  const metres = value => `${Math.max(0, value).toFixed(0)} m`;
+  switch (said.event) {
+    case 'found': return 'found on the route';
+    case 'left_route': return 'left the route';
+    case 'back_on_route': return 'back on the route';
+    case 'turn_ahead':
+      return `in ${metres(said.distance_m)} a turn of ${Math.abs(said.turn_deg).toFixed(0)}° to the ${said.turn_deg < 0 ? 'left' : 'right'}`;
+    case 'passing': return `passing ${said.name}`;
+    case 'end_of_route': return `the route ends in ${metres(said.distance_m)}`;
+    default: return '';
+  }
+}
+
+/** Fills `figure`. A live walk's moments come from the server that the page is from. Without poses, the route is a straight line of its keyframes. */
 function drawPlayer(figure, spec) {
   const make = (tag, properties, ...children) => {
     const element = Object.assign(document.createElement(tag), properties);
@@ -46,7 +62,10 @@ function drawPlayer(figure, spec) {
   slider.setAttribute('aria-label', 'moment of the walk');
   const picture = text => make('figure', {}, make('img', {alt: text}), make('figcaption', {textContent: text}));
   const query = picture('what the walker sees'), reference = picture('the place on the route');
-  figure.prepend(make('div', {className: 'pair'}, query, reference), make('div', {className: 'tools'}, play, slider), reading, canvas);
+  const status = make('p', {className: 'status'});
+  status.setAttribute('role', 'status');  // read out as it changes
+  figure.prepend(...(spec.live ? [status] : []), make('div', {className: 'pair'}, query, reference),
+    make('div', {className: 'tools'}, play, slider), reading, canvas);
 
   let index = 0, timer = null;
   const poses = spec.traverses.some(traverse => traverse.x.some(x => x !== null));
@@ -84,7 +103,8 @@ function drawPlayer(figure, spec) {
       const [x, y] = at(place);
       pen.fillRect(x - 3, y - 3, 6, 6);
       pen.textAlign = x > canvas.clientWidth / 2 ? 'right' : 'left';
-      pen.fillText(named.name, x + (pen.textAlign === 'right' ? -7 : 7), y - 5, canvas.clientWidth / 2);
+      const right = pen.textAlign === 'right';
+      pen.fillText(named.name, x + (right ? -7 : 7), y - 5, (right ? x : canvas.clientWidth - x) - 12);
     }
     const sample = spec.samples[index], place = sample && where(sample);
     if (!place) return;
@@ -117,7 +137,7 @@ function drawPlayer(figure, spec) {
     if (sample.traverse !== undefined) parts.push(`reference ${spec.traverses[sample.traverse].name}, frame ${sample.reference_frame}`);
     reading.textContent = parts.join('; ');
     put(query, sample.query);
-    put(reference, sample.reference === undefined ? null : spec.references[sample.reference]);
+    put(reference, sample.reference === undefined ? null : spec.live ? sample.reference : spec.references[sample.reference]);
     draw();
   }
   function stop() {
@@ -138,6 +158,29 @@ function drawPlayer(figure, spec) {
     figure.dataset.playing = 'true';
     step();
   }
+  function say(text) {
+    if (status.textContent !== text) status.textContent = text;
+  }
+  /** Takes moments as they come, and shows the newest unless an earlier one is looked at. */
+  function listen() {
+    const events = new EventSource('events');
+    const turn = (state, text) => { figure.dataset.live = state; say(text); };
+    turn('waiting', 'waiting for the walk');
+    events.onopen = () => turn('open', 'live');
+    events.onerror = () => turn('lost', 'no connection; trying again');
+    events.addEventListener('end', () => { events.close(); turn('ended', 'the walk has ended'); });
+    events.onmessage = message => {
+      const newest = index >= spec.samples.length - 1, sample = JSON.parse(message.data);
+      spec.samples.push(sample);
+      if (spec.samples.length > KEPT_LIVE) {
+        spec.samples.shift();
+        index = Math.max(0, index - 1);
+      }
+      slider.max = spec.samples.length - 1;
+      if (newest && timer === null) show(spec.samples.length - 1);
+      say(sample.said ? announcement(sample.said) : 'live');
+    };
+  }
   play.onclick = toggle;
   slider.oninput = () => show(Number(slider.value));
   canvas.addEventListener('keydown', event => {
@@ -149,5 +192,7 @@ function drawPlayer(figure, spec) {
   });
   window.addEventListener('resize', draw);
   show(0);
+  draw();
+  if (spec.live) listen();
   return {restyle: draw};
 }
