@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,11 @@ class Option;
 }  // namespace CLI
 
 namespace retrace {
+
+/// Arguments that do not go together, where the parser cannot know; the exit status is that of bad usage.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Options that most commands share.
 struct CommonOptions {

@@ -172,8 +172,14 @@ int run(int argc, char** argv) {
   }
   for (Declared& command : commands) {
     if (!command.app->parsed()) continue;
-    command.arguments.finish();
-    command.run();
+    try {
+      command.arguments.finish();
+      command.run();
+    } catch (const UsageError& error) {
+      fmt::print(stderr, "retrace: {}\nRun `retrace {} --help` for more.\n", error.what(),
+                 command.app->get_name());
+      return kUsage;
+    }
   }
   if (std::fflush(stdout) != 0) throw vo::Error("standard output", "cannot be written");
   return 0;

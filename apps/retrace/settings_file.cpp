@@ -1,27 +1,15 @@
 #include "settings_file.hpp"
 
-#include <filesystem>
-#include <fstream>
+#include "toml_entries.hpp"
+
 #include <set>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
 
 namespace retrace {
 namespace {
-
-std::vector<CLI::ConfigItem> parse_toml(const std::string& file) {
-  if (!std::filesystem::is_regular_file(file)) throw vo::Error(file, "is no file", "a TOML file of settings");
-  std::ifstream stream(file);
-  if (!stream) throw vo::Error(file, "cannot be read", "a TOML file of settings");
-  try {
-    return CLI::ConfigTOML().from_config(stream);
-  } catch (const CLI::Error& error) {
-    throw vo::Error(file, error.what(), "lines of `key = value`");
-  }
-}
 
 /// The value in TOML: texts in quotation marks, with the necessary escapes.
 std::string quoted(const place::Setting& setting, const std::string& value) {
@@ -35,16 +23,15 @@ std::string quoted(const place::Setting& setting, const std::string& value) {
 place::Settings read_settings_file(const std::string& file) {
   place::Settings settings;
   std::set<std::string> seen;
-  for (const CLI::ConfigItem& item : parse_toml(file)) {
-    if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the bounds of a section
-    const std::string key = item.fullname();
+  for (const TomlEntry& item : read_toml(file, "a TOML file of settings")) {
+    const std::string key = item.section.empty() ? item.key : item.section + "." + item.key;
     try {
       const place::Setting& setting = place::setting_named(key);
       // CLI11 joins the values of a repeated key.
-      if (!seen.insert(key).second || item.inputs.size() > 1)
+      if (!seen.insert(key).second || item.values.size() > 1)
         throw vo::Error(key, "stands there twice, or with several values", "one value, once");
-      if (item.inputs.empty()) throw vo::Error(key, "has no value", "one value");
-      place::set(settings, setting, item.inputs.front());
+      if (item.values.empty()) throw vo::Error(key, "has no value", "one value");
+      place::set(settings, setting, item.values.front());
     } catch (const vo::Error& error) {
       throw vo::Error(file, error.what());
     }

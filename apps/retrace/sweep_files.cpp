@@ -6,6 +6,7 @@
 #include "run_directory.hpp"
 #include "settings_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -26,6 +27,18 @@ using nlohmann::ordered_json;
 /// The files of a walk.
 std::string shown(const std::vector<std::string>& walk) {
   return fmt::format("{}", fmt::join(walk, ", "));
+}
+
+constexpr const char* kParts = "cells";  // folder
+
+/// By name.
+std::vector<fs::path> files_of_parts(const SweepOptions& options) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(options.output) / kParts, none))
+    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
 }
 
 /// What identifies a sweep; a different one may not use the same folder.
@@ -77,10 +90,53 @@ place::SweepResults resume_sweep(const SweepOptions& options, const std::vector<
       throw vo::Error(folder.string(), "holds another sweep", "another folder, or --force to begin anew");
     }
     done = place::read_sweep(folder / "sweep.csv", axes);
+    for (const fs::path& part : files_of_parts(options)) done.merge(place::read_sweep(part, axes));
+  } else {
+    if (!options.cell.empty() || options.merge)
+      throw vo::Error("--force", "would remove what other parts of the sweep wrote", "another folder");
+    remove_parts(options);
   }
-  write_sweep_csv(options, axes, done);
+  if (options.cell.empty() && !options.merge) write_sweep_csv(options, axes, done);
   vo::write_file(mark, description);
   return done;
+}
+
+void write_part(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                const place::SweepPart& part, const place::SweepResults& results) {
+  const fs::path folder = fs::path(options.output) / kParts;
+  prepare_run_directory(folder, {}, true);
+  vo::write_file(folder / fmt::format("{}-of-{}.csv", part.number, part.of), place::sweep_csv(axes, results));
+}
+
+void check_all_there(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
+                     const place::SweepResults& results) {
+  const std::vector<place::SweepCell> cells = place::cells_by_work(axes);
+  const auto missing =
+      std::ranges::find_if_not(cells, [&](const place::SweepCell& cell) { return results.contains(cell); });
+  if (missing == cells.end()) return;
+  const auto count =
+      std::ranges::count_if(cells, [&](const place::SweepCell& cell) { return !results.contains(cell); });
+  throw vo::Error(
+      options.output,
+      fmt::format("{} of {} cells are missing, the first{}", count, cells.size(), flags_of(axes, *missing)),
+      "every part done with --cell, or the sweep without --merge");
+}
+
+void print_part(const SweepOptions& options, const place::SweepPart& part, std::size_t found,
+                std::size_t of_all) {
+  if (options.common.json) {
+    const ordered_json json{{"part", part.number}, {"parts", part.of}, {"cells", found}, {"of", of_all}};
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("part {} of {}: {} of {} cells; with all parts done, --merge puts them together\n", part.number,
+             part.of, found, of_all);
+}
+
+void remove_parts(const SweepOptions& options) {
+  for (const fs::path& part : files_of_parts(options)) fs::remove(part);
+  std::error_code not_empty;  // holds what is not ours
+  fs::remove(fs::path(options.output) / kParts, not_empty);
 }
 
 void write_sweep_csv(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,

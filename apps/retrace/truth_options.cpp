@@ -7,19 +7,46 @@
 
 namespace retrace {
 
-void declare_truth(Arguments& arguments, TruthOptions& options) {
+namespace {
+
+struct TruthArguments {
+  Argument pairs, query, metres, frames;
+};
+
+TruthArguments declare_files_and_tolerance(Arguments& arguments, TruthOptions& options) {
   const Argument pairs = arguments.option(
       "--pairs", options.pairs, "landmarks: query_frame,reference_frame, interpolated between them");
   Argument query = arguments.option("--query-truth", options.query_truth, "truth.csv of the query");
   const Argument reference =
       arguments.option("--reference-truth", options.reference_truth, "truth.csv of the reference");
   query.needs(reference);
-  arguments.exactly_one({pairs, query});
   Argument metres = arguments.option("--tolerance-m", options.tolerance.tolerance_m,
                                      "metres along the route within which a match is right [SSS 4.2: 4]");
   Argument frames = arguments.option("--tolerance-frames", options.tolerance.tolerance_frames,
                                      "the same, reference frames");
-  arguments.exactly_one({metres.non_negative(), frames.non_negative()});
+  return {pairs, query, metres.non_negative(), frames.non_negative()};
+}
+
+}  // namespace
+
+void declare_truth(Arguments& arguments, TruthOptions& options) {
+  const auto [pairs, query, metres, frames] = declare_files_and_tolerance(arguments, options);
+  arguments.exactly_one({pairs, query});
+  arguments.exactly_one({metres, frames});
+}
+
+void declare_optional_truth(Arguments& arguments, TruthOptions& options) {
+  declare_files_and_tolerance(arguments, options);
+}
+
+std::string what_truth_lacks(const TruthOptions& options) {
+  const place::Tolerance& tolerance = options.tolerance;
+  if (options.pairs.empty() == options.query_truth.empty()) return "one of pairs and query-truth";
+  if (!options.query_truth.empty() && options.reference_truth.empty())
+    return "reference-truth beside query-truth";
+  if (tolerance.tolerance_m.has_value() == tolerance.tolerance_frames.has_value())
+    return "one of tolerance-m and tolerance-frames";
+  return {};
 }
 
 Truth read_truth(const TruthOptions& options) {

@@ -19,6 +19,12 @@ struct TruthOptions {
 
 void declare_truth(Arguments& arguments, TruthOptions& options);
 
+/// The same where a list of pairs may be given instead, so that none is required.
+void declare_optional_truth(Arguments& arguments, TruthOptions& options);
+
+/// What is missing of a truth, or given twice, in words; empty if nothing is.
+std::string what_truth_lacks(const TruthOptions& options);
+
 /// The truth, and the query's true poses if it has them.
 struct Truth {
   place::GroundTruth places;

@@ -1078,6 +1078,122 @@ class CliTest(unittest.TestCase):
         self.refused(*sweep, "--motion", "sad", "--sampling-n", "7", says="holds another sweep")
         self.assertEqual((self.folder / "sweep/sweep.csv").read_bytes(), before)
 
+    SWEPT = ("sweep.csv", "sweep.toml", "methods.json", "report.html", "heat_map.png")
+
+    def same_files(self, one, other, names):
+        for name in names:
+            self.assertEqual((one / name).read_bytes(), (other / name).read_bytes(), name)
+        self.assertEqual(sorted(path.name for path in one.iterdir()), sorted(path.name for path in other.iterdir()))
+
+    def test_a_divided_sweep_gives_the_files_of_the_undivided_one(self):
+        options = ("--motion", "none,sad", "--vary", "enhance=local,standardise", "--equal-keyframes", "--compare", "motion,enhance")
+        whole, divided = self.folder / "whole", self.folder / "divided"
+        self.sweep(whole, *options)
+        command = ["sweep", self.walks.query, "--reference", self.walks.reference, "--query-truth", self.walks.query_truth,
+                   "--reference-truth", self.walks.reference_truth, "--tolerance-m", 0.1, "-o", divided, "--sequence-length", "5,10",
+                   "--search-range-rad", "0.1,0.3", *options]
+        # Three processes at once, in any order; the last of them later.
+        processes = [subprocess.Popen([RETRACE, *map(str, command), "--cell", f"{i}/3"], stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL) for i in (2, 1)]
+        self.assertEqual([process.wait() for process in processes], [0, 0])
+        done = sum(len(rows(path)) for path in (divided / "cells").iterdir())
+        self.assertIn(done, (10, 11))  # of 16
+        self.refused(*command, "--merge", says=f"{16 - done} of 16 cells are missing")
+        self.assertFalse((divided / "sweep.csv").exists())
+        said = json.loads(check(*command, "--cell", "3/3", "--json"))
+        self.assertEqual(said, {"part": 3, "parts": 3, "cells": 16 - done, "of": 16})
+        # What a part has is not done again, however the sweep is divided: an altered figure stays.
+        part = divided / "cells" / "1-of-3.csv"
+        before = part.read_text()
+        part.write_text(re.sub(r"(\n[^,]*,[^,]*,[^,]*,[^,]*,\d+,\d+,[^,]*),[^,]*", r"\1,0.125", before, count=1))
+        self.assertNotEqual(part.read_text(), before)
+        altered = part.read_text()
+        check(*command, "--cell", "1/3")
+        self.assertEqual(part.read_text(), altered)
+        part.write_text(before)
+        check(*command, "--merge")
+        self.same_files(whole, divided, self.SWEPT)
+
+        self.refused(*command, "--cell", "4/3", says="1 <= I <= N")
+        self.refused(*command, "--cell", "1/3", "--merge", says="--merge", code=2)
+        self.refused(*command, "--cell", "1/3", "--force", says="another folder")
+        self.refused(*command, "--sampling-n", "7", "--cell", "1/3", says="holds another sweep")
+
+    def write_pairs(self, *more):
+        folder = self.folder / "benchmark-of"
+        folder.mkdir()
+        names = {}
+        for name in ("query", "reference"):
+            (folder / name).symlink_to(getattr(self.walks, name))
+            shutil.copy(getattr(self.walks, name + "_truth"), folder / f"{name}.csv")
+        (folder / "landmarks.csv").write_text("query_frame,reference_frame\n0,0\n149,298\n")
+        text = """[forth]
+query = "query"
+reference = "reference"
+query-truth = "query.csv"
+reference-truth = "reference.csv"
+tolerance-m = 0.1
+
+[back]
+query = ["reference"]
+reference = "query"
+query-truth = "reference.csv"
+reference-truth = "query.csv"
+tolerance-m = 0.1
+"""
+        (folder / "pairs.toml").write_text(text + "".join(more))
+        return folder / "pairs.toml"
+
+    def test_sweeps_over_a_list_of_pairs_end_in_one_table(self):
+        pairs = self.write_pairs()
+        command = ["sweep", "--list", pairs, "--sequence-length", "5,10", "--search-range-rad", "0.1,0.3", "--motion", "none,sad"]
+        whole = self.folder / "benchmark"
+        said = check(*command, "-o", whole)
+        self.assertIn("| motion | forth | back | mean rank |", said)
+        # A pair's files are those of its own sweep.
+        alone = self.folder / "alone"
+        self.sweep(alone, "--motion", "none,sad")
+        self.same_files(alone, whole / "forth", ("sweep.csv", "methods.json", "heat_map.png"))
+        table = rows(whole / "benchmark.csv")
+        self.assertEqual([(row["pair"], row["motion"]) for row in table],
+                         [(pair, motion) for pair in ("forth", "back") for motion in ("none", "sad")])
+        methods = read_json(whole / "forth/methods.json")
+        for row, method in zip(table, methods):
+            self.assertAlmostEqual(float(row["max_f1"]), method["best"]["max_f1"], places=8)
+            self.assertEqual([float(row["max_f1_low"]), float(row["max_f1_high"])],
+                             [float(f"{x:.9g}") for x in method["best"]["max_f1_interval"]])
+            self.assertEqual(row["best_sequence-length"], method["best"]["sequence-length"])
+        ranks = read_json(whole / "benchmark.json")["ranks"]
+        for which, column in (("mean_rank_best", "max_f1"), ("mean_rank_default", "default_max_f1")):
+            figures = [[float(row[column]) for row in table if row["pair"] == pair] for pair in ("forth", "back")]
+            for i, rank in enumerate(ranks):
+                one = [1 + sum(other > of[i] for other in of) + (of.count(of[i]) - 1) / 2 for of in figures]
+                self.assertAlmostEqual(rank[which], sum(one) / 2)
+        # Divided over both pairs, it gives the same.
+        divided = self.folder / "divided"
+        for part in (3, 1, 2):
+            check(*command, "-o", divided, "--cell", f"{part}/3")
+        check(*command, "-o", divided, "--merge")
+        self.same_files(whole, divided, ("benchmark.csv", "benchmark.json", "report.html"))
+        for pair in ("forth", "back"):
+            self.same_files(whole / pair, divided / pair, self.SWEPT)
+
+    def test_refuses_lists_of_pairs_it_cannot_read(self):
+        good = self.write_pairs().read_text()
+        for change, says in ((lambda t: t.replace("[back]", "[forth]"), "twice"), (lambda t: "query = \"a\"\n" + t, "above the first pair"),
+                             (lambda t: t.replace("tolerance-m", "tolerance"), "tolerance: is no key"),
+                             (lambda t: t.replace("reference = \"query\"\n", ""), "[back]: reference: is missing"),
+                             (lambda t: t.replace("0.1", "near"), "a number of at least 0"),
+                             (lambda t: t.replace("tolerance-m = 0.1\n\n", "tolerance-m = 0.1\ntolerance-frames = 3\n\n"), "one of tolerance-m"),
+                             (lambda t: t.replace("[back]", "[a/b]"), "a folder's"), (lambda t: "", "has no pair"),
+                             (lambda t: t.replace("reference.csv", "nothing.csv"), "nothing.csv")):
+            path = self.folder / "benchmark-of" / "bad.toml"
+            path.write_text(change(good))
+            self.refused("sweep", "--list", path, "-o", self.folder / "bad", says=says)
+        self.assertFalse((self.folder / "bad").exists())
+        self.refused("sweep", "--list", path, "--tolerance-m", 1, "-o", self.folder / "bad", says="--list", code=2)
+        self.refused("sweep", "-o", self.folder / "bad", says="query is required", code=2)
+
     def evaluated(self, name, *options, tolerance_m=0.05):
         check("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / name, *options)
         check("evaluate", self.folder / name, "--query-truth", self.walks.query_truth, "--reference-truth",

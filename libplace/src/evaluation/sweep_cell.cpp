@@ -5,6 +5,7 @@
 #include "place/stage_options.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -109,7 +110,7 @@ std::optional<CellResult> run_cell(const SampledPair& sampled, const CostMatrix&
   result.recall_at_1 = e.recall_at_1;
   result.density = sampled.density;
   result.queries.queries = std::move(run.queries);
-  return result;
+  return as_written(std::move(result));
 }
 
 }  // namespace place

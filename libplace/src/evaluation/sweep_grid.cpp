@@ -113,6 +113,12 @@ bool shapes_the_matrix(const std::string& setting) {
   return setting_named(setting).group != SettingGroup::kSearch || setting == "max-shift-px";
 }
 
+CellResult as_written(CellResult result) {
+  for (const Column& column : kColumns)
+    result.*column.value = std::stod(fmt::format("{:.9g}", result.*column.value));
+  return result;
+}
+
 std::string sweep_csv(const std::vector<SweepAxis>& axes, const SweepResults& results) {
   std::string csv;
   for (const SweepAxis& axis : axes) csv += axis.setting + ",";

@@ -46,6 +46,9 @@ Settings settings_at(const Settings& base, const std::vector<SweepAxis>& axes, c
 /// True if the setting changes keyframes or their descriptors, and so the cost matrix.
 bool shapes_the_matrix(const std::string& setting);
 
+/// The result with the nine digits of every figure that sweep.csv holds, so that it equals what is read back.
+CellResult as_written(CellResult result);
+
 /// sweep.csv: a row for each cell, those of the grid first and in its order.
 std::string sweep_csv(const std::vector<SweepAxis>& axes, const SweepResults& results);
 
