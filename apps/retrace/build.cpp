@@ -1,3 +1,4 @@
+#include "added_traverse.hpp"
 #include "command.hpp"
 #include "import_route.hpp"
 #include "progress_bar.hpp"
@@ -11,7 +12,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include <place/place.hpp>
@@ -49,35 +49,6 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
                       "another --name, or --force to replace it");
     }
   }
-}
-
-void print(const BuildOptions& options, const place::Route& route, const place::AddedTraverse& added) {
-  const place::Traverse& traverse = route.traverses[added.index];
-  if (options.common.json) {
-    nlohmann::ordered_json json{{"route", options.output},
-                                {"traverse", traverse.name},
-                                {"frames", traverse.frames},
-                                {"duration_s", traverse.duration_s},
-                                {"keyframes", traverse.keyframes.size()},
-                                {"traverses", route.traverses.size()},
-                                {"sampling_unit", route.unit},
-                                {"relative_scale", added.scale},
-                                {"motion", *route.settings.motion},
-                                {"gait_share", nullptr},
-                                {"places", traverse.places.size()}};
-    if (added.gait_share) json["gait_share"] = *added.gait_share;
-    fmt::print("{}\n", json.dump(2));
-    return;
-  }
-  fmt::print("{}: traverse '{}': {} frames, {:.1f} s, {} keyframes", options.output, traverse.name,
-             traverse.frames, traverse.duration_s, traverse.keyframes.size());
-  const auto& last = traverse.keyframes.back();
-  if (last.distance_m)
-    fmt::print(", {:.1f} m surveyed", *last.distance_m - traverse.keyframes.front().distance_m.value_or(0));
-  fmt::print("; {} traverse{} in all\n", route.traverses.size(), route.traverses.size() == 1 ? "" : "s");
-  if (added.gait_share)
-    fmt::print("motion: {}, as {:.0f} % of the walk's motion is gait\n",
-               route.settings.motion == "steps" ? "steps" : "sad (alignment error)", 100 * *added.gait_share);
 }
 
 void build(BuildOptions& options) {
@@ -124,7 +95,7 @@ void build(BuildOptions& options) {
   traverse.places = place::named_places(names, traverse);
   lock.check_unchanged();
   place::write_route(options.output, route);
-  print(options, route, added);
+  print_added(options.output, route, added, options.common.json);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "command.hpp"
-#include "odometry_evaluation_files.hpp"
-#include "report/odometry_report.hpp"
+#include "measured_odometry.hpp"
 #include "visual_odometry.hpp"
 
 #include <filesystem>
@@ -15,8 +14,6 @@
 #include <place/evaluation/odometry_evaluation.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/atomic_file.hpp>
-#include <vo/io/csv.hpp>
-#include <vo/io/trajectory_io.hpp>
 
 namespace retrace {
 namespace {
@@ -46,39 +43,6 @@ void evaluate_kitti(const EvaluateOdometryOptions& options) {
     print_kitti_metrics(metrics);
 }
 
-/// Measures the walk of a folder, and writes its metrics and report there.
-OdometryMeasured measure(const EvaluateOdometryOptions& options, std::size_t walk) {
-  const fs::path folder = options.folders[walk];
-  check_metres(folder);
-  std::optional<std::size_t> counted;
-  if (!options.true_steps.empty()) counted = options.true_steps[walk];
-  const WalkTruth truth = read_walk_truth(options.truths[walk], options.map_scale_m_per_px, counted);
-  OdometryMeasured measured{.steps = vo::CsvTable::read(folder / "steps.csv").rows()};
-  if (truth.steps) measured.counted = {{measured.steps, *truth.steps}};
-  const vo::Trajectory trajectory = vo::read_tum(folder / "trajectory.tum");
-  const auto pairs = truth.way.empty()
-                         ? place::pair_by_time(truth.walk.poses, truth.walk.distance_m, trajectory)
-                         : place::pair_by_share(truth.way, trajectory);
-  place::OdometryEvaluationOptions evaluation = options.evaluation;
-  evaluation.seed += walk;  // other starts on each walk
-  measured.evaluation = place::evaluate_odometry(pairs, evaluation);
-  if (measured.evaluation.segment_m == 0) {
-    throw vo::Error(options.truths[walk],
-                    fmt::format("and the trajectory share {:.1f} m", measured.evaluation.distance_m),
-                    fmt::format("{} m or more", options.evaluation.at_m.front()));
-  }
-  vo::write_file(folder / "odometry_metrics.json",
-                 odometry_metrics_json(measured, evaluation).dump(2) + "\n");
-  const OdometryTruth for_report{.poses = truth.walk.poses,
-                                 .way = truth.way,
-                                 .map_image = options.map_image,
-                                 .map_scale_m_per_px = options.map_scale_m_per_px.value_or(0),
-                                 .steps = truth.steps ? std::to_string(*truth.steps) : "",
-                                 .evaluation = measured.evaluation};
-  vo::write_file(folder / "report.html", odometry_report(folder, &for_report));
-  return measured;
-}
-
 void check_counts(const EvaluateOdometryOptions& options) {
   const std::size_t walks = options.folders.size();
   if (!options.kitti_poses.empty() && walks > 1)
@@ -101,7 +65,15 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   check_counts(options);
   if (!options.kitti_poses.empty()) return evaluate_kitti(options);
   std::vector<OdometryMeasured> walks;
-  for (std::size_t i = 0; i < options.folders.size(); ++i) walks.push_back(measure(options, i));
+  for (std::size_t i = 0; i < options.folders.size(); ++i) {
+    WalkTruthOptions truth{.path = options.truths[i],
+                           .map_scale_m_per_px = options.map_scale_m_per_px,
+                           .map_image = options.map_image};
+    if (!options.true_steps.empty()) truth.steps = options.true_steps[i];
+    place::OdometryEvaluationOptions evaluation = options.evaluation;
+    evaluation.seed += i;  // other starts on each walk
+    walks.push_back(measure_odometry(options.folders[i], truth, evaluation));
+  }
   const OdometryMeasured all = pooled(walks);
   const std::string metrics = odometry_metrics_json(all, options.evaluation).dump(2) + "\n";
   if (!options.output.empty()) {
@@ -126,7 +98,7 @@ std::function<void()> declare_evaluate_odometry(Arguments& arguments) {
                        "folders written by `retrace odometry`, of one walk or several");
   const Argument truth = arguments.option(
       "--truth", options->truths,
-      "of each walk: truth.csv, or the way as a line on a map: x_px,y_px, y downwards, north up");
+      "of each walk: truth.csv, or the path as a line on a map: x_px,y_px, y downwards, north up");
   const Argument kitti = arguments.option(
       "--kitti-poses", options->kitti_poses,
       "true poses in KITTI's form: its errors of visual odometry alone, which `retrace odometry "
@@ -152,7 +124,7 @@ std::function<void()> declare_evaluate_odometry(Arguments& arguments) {
       "Examples:\n"
       "  retrace evaluate-odometry walk --truth truth.csv\n"
       "  retrace evaluate-odometry walk1 walk2 --truth truth1.csv truth2.csv -o all\n"
-      "  retrace evaluate-odometry walk --truth way.csv --map-scale-m-per-px 0.2 --true-steps 512 "
+      "  retrace evaluate-odometry walk --truth path.csv --map-scale-m-per-px 0.2 --true-steps 512 "
       "--segment-m 50\n"
       "  retrace evaluate-odometry drive --kitti-poses 03.txt");
   return [options] { evaluate_odometry(*options); };

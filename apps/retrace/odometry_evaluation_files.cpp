@@ -22,18 +22,18 @@ constexpr std::string_view kProtocol =
     "the "
     "left, as in PVO.";
 
-std::vector<place::WayPoint> read_way(const vo::CsvTable& table, const std::string& path,
-                                      double scale_m_per_px) {
+std::vector<place::MapPoint> read_map_path(const vo::CsvTable& table, const std::string& path,
+                                           double scale_m_per_px) {
   const std::vector<double> x_px = table.numbers("x_px");
   const std::vector<double> y_px = table.numbers("y_px");
-  std::vector<place::WayPoint> way;
+  std::vector<place::MapPoint> map_path;
   bool moves = false;
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    way.push_back({x_px[i] * scale_m_per_px, -y_px[i] * scale_m_per_px});  // down on the map is south
+    map_path.push_back({x_px[i] * scale_m_per_px, -y_px[i] * scale_m_per_px});  // down on the map is south
     moves = moves || x_px[i] != x_px[0] || y_px[i] != y_px[0];
   }
-  if (!moves) throw vo::Error(path, "is no way", "two points or more of different places");
-  return way;
+  if (!moves) throw vo::Error(path, "is no path", "two points or more of different places");
+  return map_path;
 }
 
 std::size_t true_steps(const std::vector<place::StepCount>& walks) {
@@ -50,13 +50,13 @@ WalkTruth read_walk_truth(const std::string& path, const std::optional<double>& 
   WalkTruth truth;
   if (table.has("x_px")) {
     if (!map_scale_m_per_px)
-      throw vo::Error(path, "is a way on a map", "--map-scale-m-per-px, the metres of one of its pixels");
-    truth.way = read_way(table, path, *map_scale_m_per_px);
+      throw vo::Error(path, "is a path on a map", "--map-scale-m-per-px, the metres of one of its pixels");
+    truth.map_path = read_map_path(table, path, *map_scale_m_per_px);
   } else {
     if (map_scale_m_per_px)
-      throw vo::Error(path, "has no column 'x_px'", "a way on a map, with --map-scale-m-per-px");
+      throw vo::Error(path, "has no column 'x_px'", "a path on a map, with --map-scale-m-per-px");
     const vo::WalkTruth walk = vo::read_truth(path);
-    truth.walk = vo::poses_on_the_way(walk);
+    truth.walk = vo::poses_along_route(walk);
     if (const auto steps = vo::steps_in_all(walk)) truth.steps = static_cast<std::size_t>(*steps);
   }
   if (counted_steps) truth.steps = counted_steps;

@@ -16,8 +16,8 @@ namespace retrace {
 /// The truth of a walk: poses with times, or else its path drawn on a map, in metres.
 struct WalkTruth {
   std::optional<std::size_t> steps;
-  vo::PosesOnTheWay walk;
-  std::vector<place::WayPoint> way;
+  vo::PosesAlongRoute walk;
+  std::vector<place::MapPoint> map_path;
 };
 
 /// Reads truth.csv, or a path on a map (x_px,y_px, y downwards, north up) for which the metres per pixel are

@@ -131,7 +131,7 @@ Settings resolve(const Settings& given, const ResolveContext& context) {
     }
     std::string why_not;
     if (!matters(settings, setting, context, &why_not)) {
-      if (text_of(given, setting) && !context.pass_over)
+      if (text_of(given, setting) && !context.drop_ineffective)
         throw vo::Error(std::string(setting.name), fmt::format("has no effect: {}", why_not),
                         "another value there, or this setting left out");
       reset(settings, setting);

@@ -527,7 +527,7 @@ class CliTest(unittest.TestCase):
         self.refused(*evaluate, self.folder / "none.csv", says="none.csv: does not exist")
         self.refused(*evaluate, way, says="expected --map-scale-m-per-px")
         self.refused(*evaluate, truth, "--map-scale-m-per-px", "1", says="has no column 'x_px'")
-        self.refused(*evaluate, point, "--map-scale-m-per-px", "1", says="point.csv: is no way")
+        self.refused(*evaluate, point, "--map-scale-m-per-px", "1", says="point.csv: is no path")
         self.refused(*evaluate, way, "--map-scale-m-per-px", "0", says="--map-scale-m-per-px: Value 0: expected a positive number", code=2)
         self.refused("evaluate-odometry", self.folder / "nowhere", "--truth", truth, says="nowhere: is no folder")
         self.refused("evaluate-odometry", empty, "--truth", truth, says="steps.csv: does not exist")

@@ -67,12 +67,12 @@ Series step_series(const OdometryView& walk, const std::string& leg, bool bridge
 
 /// Speed from the displacement since the frame before, over the half second around each frame.
 std::vector<double> over_half_a_second(const std::vector<double>& moved, const std::vector<double>& time_s) {
-  std::vector<double> way(moved.size() + 1, 0), speed;
-  for (std::size_t i = 0; i < moved.size(); ++i) way[i + 1] = way[i] + moved[i];
+  std::vector<double> distance(moved.size() + 1, 0), speed;
+  for (std::size_t i = 0; i < moved.size(); ++i) distance[i + 1] = distance[i] + moved[i];
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const vo::FrameRange near = vo::frames_around(time_s, {i, i + 1}, 0.25);
     const double seconds = time_s[near.end - 1] - time_s[near.begin];
-    speed.push_back(seconds > 0 ? (way[near.end] - way[near.begin + 1]) / seconds : NAN);
+    speed.push_back(seconds > 0 ? (distance[near.end] - distance[near.begin + 1]) / seconds : NAN);
   }
   return speed;
 }

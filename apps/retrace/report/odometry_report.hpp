@@ -11,11 +11,11 @@ namespace retrace {
 
 /// The truth of a walk's odometry, after evaluation.
 struct OdometryTruth {
-  vo::Trajectory poses;              ///< with times; or else
-  std::vector<place::WayPoint> way;  ///< a path on a map, metres
-  std::filesystem::path map_image;   ///< the map, north up; empty: none
-  double map_scale_m_per_px = 0;     ///< of the map
-  std::string steps;                 ///< their number, for people; empty if not known
+  vo::Trajectory poses;                   ///< with times; or else
+  std::vector<place::MapPoint> map_path;  ///< a path on a map, metres
+  std::filesystem::path map_image;        ///< the map, north up; empty: none
+  double map_scale_m_per_px = 0;          ///< of the map
+  std::string steps;                      ///< their number, for people; empty if not known
   place::OdometryEvaluation evaluation;
 };
 

@@ -16,7 +16,7 @@ namespace retrace {
 namespace {
 
 /// The point of a path at this distance along it, or its end.
-place::WayPoint point_along(const std::vector<place::WayPoint>& path, double metres) {
+place::MapPoint point_along(const std::vector<place::MapPoint>& path, double metres) {
   double walked = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double leg = std::hypot(path[i].x_m - path[i - 1].x_m, path[i].y_m - path[i - 1].y_m);
@@ -31,32 +31,32 @@ place::WayPoint point_along(const std::vector<place::WayPoint>& path, double met
 
 /// Moves and rotates a path so that it begins where `truth` does, in the same direction over the first
 /// metres.
-std::vector<place::WayPoint> laid_on(std::vector<place::WayPoint> path,
-                                     const std::vector<place::WayPoint>& truth) {
+std::vector<place::MapPoint> laid_on(std::vector<place::MapPoint> path,
+                                     const std::vector<place::MapPoint>& truth) {
   constexpr double kFirst_m = 5;
-  const auto direction = [](const std::vector<place::WayPoint>& points) {
-    const place::WayPoint at = point_along(points, kFirst_m);
+  const auto direction = [](const std::vector<place::MapPoint>& points) {
+    const place::MapPoint at = point_along(points, kFirst_m);
     return std::atan2(at.y_m - points.front().y_m, at.x_m - points.front().x_m);
   };
   const double turn = direction(truth) - direction(path);
   const double cosine = std::cos(turn), sine = std::sin(turn);
-  const place::WayPoint from = path.front(), to = truth.front();
-  for (place::WayPoint& point : path) {
+  const place::MapPoint from = path.front(), to = truth.front();
+  for (place::MapPoint& point : path) {
     const double x = point.x_m - from.x_m, y = point.y_m - from.y_m;
     point = {to.x_m + cosine * x - sine * y, to.y_m + sine * x + cosine * y};
   }
   return path;
 }
 
-std::vector<place::WayPoint> points_of(const vo::Trajectory& trajectory) {
-  std::vector<place::WayPoint> points;
+std::vector<place::MapPoint> points_of(const vo::Trajectory& trajectory) {
+  std::vector<place::MapPoint> points;
   for (const vo::TimedPose& pose : trajectory) points.push_back({pose.pose.x_m, pose.pose.y_m});
   return points;
 }
 
-Series path_series(const std::vector<place::WayPoint>& points, std::string name, std::string colour) {
+Series path_series(const std::vector<place::MapPoint>& points, std::string name, std::string colour) {
   Series series{.name = std::move(name), .colour = std::move(colour)};
-  for (const place::WayPoint& point : points) {
+  for (const place::MapPoint& point : points) {
     series.x.push_back(point.x_m);
     series.y.push_back(point.y_m);
   }
@@ -108,10 +108,10 @@ std::optional<Chart> trajectory_chart(const OdometryView& walk) {
               .equal = true,
               .zoomable = true,
               .size = "tall"};
-  std::vector<place::WayPoint> path = points_of(walk.trajectory);
+  std::vector<place::MapPoint> path = points_of(walk.trajectory);
   if (walk.truth != nullptr) {
-    const std::vector<place::WayPoint> truth =
-        walk.truth->way.empty() ? points_of(walk.truth->poses) : walk.truth->way;
+    const std::vector<place::MapPoint> truth =
+        walk.truth->map_path.empty() ? points_of(walk.truth->poses) : walk.truth->map_path;
     path = laid_on(std::move(path), truth);
     chart.series.push_back(path_series(truth, "truth", "green"));
     chart.series.back().dash = {7, 5};

@@ -17,7 +17,7 @@ struct ResolveContext {
   const Settings* route = nullptr;  ///< of the route that the walk is on; null for a new route or none
   bool route_has_poses = false;     ///< then a query's steps are tracked, to correct their drift
   bool route_has_points = true;     ///< without them `verify` is refused
-  bool pass_over = false;  ///< drop settings without effect, not refuse them: for the cells of a sweep
+  bool drop_ineffective = false;  ///< drop settings without effect, not refuse them: for the cells of a sweep
 };
 
 /// All settings that have an effect, with their values, and no others: the given value, else the route's,
@@ -38,8 +38,7 @@ struct ResolveContext {
 ///   counts.
 /// - `verify` needs a route that keeps points of its keyframes.
 /// - `v-min` and `v-max` come together, v-min <= v-max; `motion file` needs `motion-file`; `score ratio`
-/// needs whole lines, `min-fraction 1`; `max-shift-px` is
-///   less than half of the thumbnail's width.
+///   needs whole lines, `min-fraction 1`; `max-shift-px` is less than half of the thumbnail's width.
 ///
 /// Throws `vo::Error` naming the setting, what is wrong, and what was expected.
 Settings resolve(const Settings& given, const ResolveContext& context);

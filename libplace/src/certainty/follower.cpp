@@ -50,7 +50,7 @@ Settings resolved_for(const Route& route, Settings given) {
     given.motion = "none";
     given.every = 1;
   }
-  return resolve(given, {.purpose = Purpose::kLocalise, .route = &route.settings, .pass_over = true});
+  return resolve(given, {.purpose = Purpose::kLocalise, .route = &route.settings, .drop_ineffective = true});
 }
 
 std::optional<double> between(const std::optional<double>& a, const std::optional<double>& b, double t) {

@@ -91,20 +91,20 @@ std::vector<PosePair> pair_by_time(const vo::Trajectory& truth, std::span<const 
   return pairs;
 }
 
-std::vector<PosePair> pair_by_share(std::span<const WayPoint> way, const vo::Trajectory& estimate) {
+std::vector<PosePair> pair_by_share(std::span<const MapPoint> path, const vo::Trajectory& estimate) {
   // Legs of the path that have a length, and the distance at which each begins.
   struct Leg {
     double begin_m, length_m;
-    WayPoint from, to;
+    MapPoint from, to;
   };
   std::vector<Leg> legs;
-  double way_m = 0;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const double length_m = std::hypot(way[i].x_m - way[i - 1].x_m, way[i].y_m - way[i - 1].y_m);
-    if (length_m > 0) legs.push_back({way_m, length_m, way[i - 1], way[i]});
-    way_m += length_m;
+  double path_m = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double length_m = std::hypot(path[i].x_m - path[i - 1].x_m, path[i].y_m - path[i - 1].y_m);
+    if (length_m > 0) legs.push_back({path_m, length_m, path[i - 1], path[i]});
+    path_m += length_m;
   }
-  if (legs.empty()) throw std::invalid_argument("pair_by_share: a way with a length expected");
+  if (legs.empty()) throw std::invalid_argument("pair_by_share: a path with a length expected");
 
   std::vector<double> travelled_m(estimate.size(), 0);
   for (std::size_t i = 1; i < estimate.size(); ++i) {
@@ -115,7 +115,7 @@ std::vector<PosePair> pair_by_share(std::span<const WayPoint> way, const vo::Tra
   if (estimate.empty() || travelled_m.back() == 0) return pairs;
   std::size_t leg = 0;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    const double distance_m = way_m * travelled_m[i] / travelled_m.back();
+    const double distance_m = path_m * travelled_m[i] / travelled_m.back();
     if (!pairs.empty() && distance_m <= pairs.back().distance_m) continue;
     while (leg + 1 < legs.size() && distance_m >= legs[leg + 1].begin_m) ++leg;
     const auto& [begin_m, length_m, from, to] = legs[leg];

@@ -59,7 +59,7 @@ std::vector<OdometrySweepRow> sweep_odometry(std::span<const OdometrySweepWalk> 
   std::vector<OdometrySweepRow> rows;
   for (const std::string& value : axis.values) rows.push_back({.value = value});
   for (std::size_t w = 0; w < walks.size(); ++w) {
-    const vo::PosesOnTheWay truth = vo::poses_on_the_way(walks[w].truth);
+    const vo::PosesAlongRoute truth = vo::poses_along_route(walks[w].truth);
     const std::int64_t true_steps = vo::steps_in_all(walks[w].truth).value_or(0);
     OdometryEvaluationOptions of_walk = options;
     of_walk.seed += w;  // other starts on each walk

@@ -66,7 +66,7 @@ class Sweep {
     if (given.motion == "none" && every_ > 0) given.every = every_;
     given.view_points.reset();  // a sweep asks where places were found only
     given.verify.reset();
-    const Settings resolved = resolve(given, {.pass_over = true});
+    const Settings resolved = resolve(given, {.drop_ineffective = true});
     for (const Setting& setting : settings_table())
       if (!text_of(resolved, setting)) reset(given, setting);
     return given;
@@ -194,7 +194,7 @@ class Sweep {
 void check_sweep(const Settings& base, const std::vector<SweepAxis>& axes, bool equal_keyframes) {
   Settings with_effect;
   for (const SweepCell& cell : all_cells(axes))
-    with_effect = merged(with_effect, resolve(settings_at(base, axes, cell), {.pass_over = true}));
+    with_effect = merged(with_effect, resolve(settings_at(base, axes, cell), {.drop_ineffective = true}));
   for (const Setting& setting : settings_table()) {
     if (text_of(base, setting) && !text_of(with_effect, setting))
       throw vo::Error(std::string(setting.name), "has no effect in any cell of this sweep",

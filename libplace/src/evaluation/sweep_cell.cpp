@@ -44,7 +44,7 @@ SampledPair sample_pair(const WalkPair& walks, const Settings& given, const Grou
   SampledPair sampled;
   sampled.route = new_route(given);
   add(sampled.route, "reference", walks.reference, survey_of(truth, walks.reference, given), given);
-  const Settings settings = resolve(given, {.route = &sampled.route.settings, .pass_over = true});
+  const Settings settings = resolve(given, {.route = &sampled.route.settings, .drop_ineffective = true});
   const StageOptions options = stage_options(settings);
   sampled.query = sample_walk(walks.query, options.sampling, &sampled.route);
   sampled.cost = cost_matrix_on_route(sampled.query, sampled.route.traverses.front(), options.matching);
@@ -56,7 +56,7 @@ SampledPair sample_equally(const WalkPair& walks, const Settings& given, const G
                            std::size_t target) {
   constexpr double kClose = 0.01, kEqual = 0.05;
   constexpr int kAttempts = 8;
-  const Settings resolved = resolve(given, {.pass_over = true});
+  const Settings resolved = resolve(given, {.drop_ineffective = true});
   SampledPair best;
   double factor = 1, best_apart = 0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -45,7 +45,7 @@ MotionChoice choose_motion(const Settings& resolved, const vo::Walk& walk,
   if (settings.motion == "sad" && !settings.sampling_n)
     throw vo::Error(walk.source, "shows no steps, so its motion is not in metres",
                     "no spacing-m, or a walk on foot");
-  settings = resolve(settings, {.purpose = Purpose::kRoute, .pass_over = true});
+  settings = resolve(settings, {.purpose = Purpose::kRoute, .drop_ineffective = true});
   return choice;
 }
 

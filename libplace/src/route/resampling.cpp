@@ -36,14 +36,14 @@ double sampling_unit(std::span<const double> displacement, std::span<const doubl
   if (time_s.size() != displacement.size())
     throw std::invalid_argument("sampling_unit: one time per frame expected");
   if (!(n > 0)) throw std::invalid_argument("sampling_unit: n must be positive");
-  double moving_s = 0, way = 0;
+  double moving_s = 0, distance = 0;
   for (std::size_t i = 1; i < displacement.size(); ++i) {
     if (!(displacement[i] > 0)) continue;
     moving_s += time_s[i] - time_s[i - 1];
-    way += displacement[i];
+    distance += displacement[i];
   }
   if (!(moving_s > 0)) return 0;
-  const double mean = way / moving_s;
+  const double mean = distance / moving_s;
   double variance = 0;
   for (std::size_t i = 1; i < displacement.size(); ++i) {
     if (!(displacement[i] > 0)) continue;

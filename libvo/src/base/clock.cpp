@@ -19,7 +19,7 @@ std::vector<double> intervals_s(std::span<const double> time_s) {
 
 /// What was moved over the second before a gap, or after it, and in how long; not over another gap.
 struct Moved {
-  double way = 0;
+  double distance = 0;
   double seconds = 0;
 };
 
@@ -31,7 +31,7 @@ Moved moved_beside(std::span<const double> time_s, std::span<const ClockGap> gap
   Moved moved;
   const auto take = [&](std::size_t i) {
     if (is_gap(i)) return false;
-    moved.way += displacement[i];
+    moved.distance += displacement[i];
     moved.seconds += time_s[i] - time_s[i - 1];
     return moved.seconds < 1;
   };
@@ -92,7 +92,7 @@ void fill_gaps_by_pace(std::span<const double> time_s, std::span<const ClockGap>
     const Moved before = moved_beside(time_s, gaps, displacement, gap, false);
     const Moved after = moved_beside(time_s, gaps, displacement, gap, true);
     const double seconds = before.seconds + after.seconds;
-    const double pace = seconds > 0 ? (before.way + after.way) / seconds : 0;
+    const double pace = seconds > 0 ? (before.distance + after.distance) / seconds : 0;
     displacement[gap.frame] = parts_walk(gap) ? 0 : pace * gap.length_s;
   }
 }

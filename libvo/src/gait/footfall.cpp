@@ -104,18 +104,19 @@ StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<cons
       static_cast<double>(frames);
   for (std::size_t i = 0; i < frames; ++i) result.delta_dyn[i] = options.min_depth * bounce.amplitude_px[i];
 
-  const StepWay way(growth, time_s, valleys(bounce, time_s, reliable, options.sure_depth), options.way);
-  if (!way.known()) return result;
+  const StepDistance walked(growth, time_s, valleys(bounce, time_s, reliable, options.sure_depth),
+                            options.distance);
+  if (!walked.known()) return result;
   std::vector<std::size_t> falls = valleys(bounce, time_s, reliable, options.min_depth);
   const auto sure = [&](std::size_t i) {
     return -bounce_px[i] >= options.sure_depth * bounce.amplitude_px[i];
   };
-  std::erase_if(falls, [&](std::size_t i) { return !sure(i) && !way.walking(i); });
+  std::erase_if(falls, [&](std::size_t i) { return !sure(i) && !walked.walking(i); });
   // Next to a pause, a swing that dies away is not a step; its distance goes to the gap.
   const auto swings_out = [&](std::size_t i, std::size_t from, std::size_t stand) {
     const auto [a, b] = std::minmax(i, from);
     const auto [c, d] = std::minmax(i, stand);
-    return !sure(i) && !way.gap(a, b) && way.gap(c, d) && way.between(a, b) < options.min_step;
+    return !sure(i) && !walked.gap(a, b) && walked.gap(c, d) && walked.between(a, b) < options.min_step;
   };
   for (std::size_t k = 0; k < falls.size(); ++k) {
     const std::size_t before = k > 0 ? falls[k - 1] : 0;
@@ -123,7 +124,7 @@ StepDetection detect_footfalls(std::span<const double> bounce_px, std::span<cons
     if (swings_out(falls[k], before, after) || swings_out(falls[k], after, before)) continue;
     result.steps.push_back({falls[k], time_s[falls[k]], Leg::kLeft, bounce_px[falls[k]], false});
   }
-  result = complete_steps(std::move(result), way, bounce_px, time_s);
+  result = complete_steps(std::move(result), walked, bounce_px, time_s);
   name_legs(result.steps, legs);
   return result;
 }

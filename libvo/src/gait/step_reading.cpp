@@ -45,8 +45,8 @@ StepDetection read_shift(const GaitSignal& signal, const StepReadingOptions& opt
   StepDetection steps = detect(signal.shift, signal, options.detection);
   std::vector<std::size_t> frames;
   for (const Step& step : steps.steps) frames.push_back(step.frame);
-  const StepWay way(signal.growth_per_s, signal.time_s, frames, options.footfalls.way);
-  steps = walkers_steps(complete_steps(std::move(steps), way, signal.shift.values, signal.time_s),
+  const StepDistance walked(signal.growth_per_s, signal.time_s, frames, options.footfalls.distance);
+  steps = walkers_steps(complete_steps(std::move(steps), walked, signal.shift.values, signal.time_s),
                         camera_travels(signal));
   if (2 * steps.bridged <= steps.steps.size()) return steps;
   StepDetection none{.delta_min = steps.delta_min, .delta_dyn = std::move(steps.delta_dyn)};

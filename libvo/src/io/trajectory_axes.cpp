@@ -16,10 +16,10 @@ std::optional<cv::Vec3d> along_path(std::span<const Pose3> poses) {
   double pieces = 0;
   std::size_t from = 0;
   for (std::size_t i = 1; i < poses.size() && extent > 0; ++i) {
-    const cv::Vec3d way = poses[i].position - poses[from].position;
-    const double length = cv::norm(way);
+    const cv::Vec3d moved = poses[i].position - poses[from].position;
+    const double length = cv::norm(moved);
     if (length < kShortestPiece * extent) continue;
-    sum += poses[(from + i) / 2].rotation.t() * way / length;
+    sum += poses[(from + i) / 2].rotation.t() * moved / length;
     ++pieces;
     from = i;
   }

@@ -63,8 +63,8 @@ Trajectory poses_of(const WalkTruth& truth) {
   return poses;
 }
 
-PosesOnTheWay poses_on_the_way(const WalkTruth& truth) {
-  PosesOnTheWay known;
+PosesAlongRoute poses_along_route(const WalkTruth& truth) {
+  PosesAlongRoute known;
   for (std::size_t i = 0; i < truth.pose.size(); ++i) {
     if (!truth.pose[i] || !truth.distance_m[i]) continue;
     known.poses.push_back({truth.time_s[i], *truth.pose[i]});

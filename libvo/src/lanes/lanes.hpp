@@ -20,10 +20,9 @@
 ///                              no sign bit, else 0, infinity; greater, greater_equal: a bit for each lane;
 ///                              sum of 8: ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)); least
 ///   Int                        32 bits that wrap around: load, store, all, add, sub, mul; of signed ones
-///   min,
-///                              half (towards minus infinity), to_float; to_int (towards zero), to_nearest
-///                              (of two the even); low_half, high_half: 16 bits; pair_at(from, index):
-///                              from[index] in the low half, from[index + 1] in the high
+///                              min, half (towards minus infinity), to_float; to_int (towards zero),
+///                              to_nearest (of two the even); low_half, high_half: 16 bits; pair_at(from,
+///                              index): from[index] in the low half, from[index + 1] in the high
 ///   Products                   small integers packed by kPacking, see `Packing`; all_products(from): the 32
 ///                              bits there, in every lane; add_products(sums, left, right): Int sums + the
 ///                              dot product of the values in each 32 bits

@@ -79,7 +79,7 @@ std::vector<bool> usable_errors(const MotionEvidence& evidence) {
 }  // namespace
 
 std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRange run,
-                                       std::span<const std::optional<double>> way,
+                                       std::span<const std::optional<double>> moved,
                                        std::span<const std::optional<double>> tied,
                                        const SegmentTieOptions& options) {
   constexpr double kLeastSigma = 0.05;  // a walk that has never changed its speed may still do so
@@ -88,7 +88,7 @@ std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRang
   const double lost_s = time_s[lost - 1], found_s = time_s[run.begin];
   const FrameRange before{seconds_from(time_s, lost_s - options.speed_s, 0).begin + 1, lost};
   const FrameRange after{run.begin, std::min(run.end, seconds_from(time_s, found_s, options.speed_s).end)};
-  const auto speed_before = speed_over(time_s, tied, before), speed_after = speed_over(time_s, way, after);
+  const auto speed_before = speed_over(time_s, tied, before), speed_after = speed_over(time_s, moved, after);
   if (!speed_before || !speed_after) return std::nullopt;
   const double over_s = found_s - lost_s + options.speed_s;  // from middle to middle
   const double sigma =
@@ -97,7 +97,7 @@ std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRang
 }
 
 std::optional<SegmentTie> tie_by_relation(const MotionEvidence& evidence, FrameRange run,
-                                          std::span<const std::optional<double>> way,
+                                          std::span<const std::optional<double>> moved,
                                           std::span<const std::optional<double>> tied,
                                           const SegmentTieOptions& options) {
   if (evidence.errors == nullptr) return std::nullopt;
@@ -111,9 +111,9 @@ std::optional<SegmentTie> tie_by_relation(const MotionEvidence& evidence, FrameR
   double by_relation = 0, by_track = 0;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     const std::size_t frame = after.begin + i;
-    if (!usable[frame] || !way[frame] || !predicted[i]) continue;
+    if (!usable[frame] || !moved[frame] || !predicted[i]) continue;
     by_relation += *predicted[i];
-    by_track += *way[frame];
+    by_track += *moved[frame];
   }
   if (!(by_relation > 0 && by_track > 0)) return std::nullopt;
   return SegmentTie{by_relation / by_track, options.relation_sigma};

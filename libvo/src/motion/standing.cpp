@@ -45,10 +45,10 @@ bool standing_still(double distant_error) {
   return distant_error < 2 / std::sqrt(std::numbers::pi) / 3;
 }
 
-std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const double> time_s,
-                                 double distant_error, const StandingOptions& options) {
+std::vector<bool> standing_frames(const ImageStack& normalised, std::span<const double> time_s,
+                                  double distant_error, const StandingOptions& options) {
   if (time_s.size() != normalised.size())
-    throw std::invalid_argument("standing_steps: one time per frame expected");
+    throw std::invalid_argument("standing_frames: one time per frame expected");
   std::vector<bool> standing(normalised.size(), false);
   if (!(options.span_s > 0)) return standing;
 
@@ -93,11 +93,11 @@ Pauses find_pauses(const ImageStack& normalised, std::span<const double> time_s,
   if (pauses.still) return pauses;
   pauses.distant_error = percentile(errors, 0.5);
   if (standing_still(pauses.distant_error)) pauses.distant_error = percentile(errors, kMostUnlike);
-  pauses.standing = standing_steps(normalised, time_s, pauses.distant_error, options);
+  pauses.standing = standing_frames(normalised, time_s, pauses.distant_error, options);
   if (2 * static_cast<std::size_t>(std::ranges::count(pauses.standing, true)) <= normalised.size())
     return pauses;
   pauses.distant_error = distant_error(normalised, pauses.standing);
-  pauses.standing = standing_steps(normalised, time_s, pauses.distant_error, options);
+  pauses.standing = standing_frames(normalised, time_s, pauses.distant_error, options);
   return pauses;
 }
 

@@ -54,7 +54,7 @@ std::vector<double> heights_in(const DisplacementTrack& track, FrameRange range)
 /// Removes the drift of scale from a run: scales each frame by the camera's height in the whole run over that
 /// in the seconds around it. Returns false, and does nothing, where too little ground is seen.
 bool steady_by_ground(const MotionEvidence& evidence, const TrackScaleOptions& options, FrameRange run,
-                      Displacements& way) {
+                      Displacements& moved) {
   constexpr double kDrift = 0.2;  // of the logarithm of scale within a run, standard deviation
   const std::optional<double> of_run = ground_height(heights_in(*evidence.track, run), {}, options.ground);
   if (!of_run) return false;
@@ -66,7 +66,7 @@ bool steady_by_ground(const MotionEvidence& evidence, const TrackScaleOptions& o
                              options.ground)
                    .value_or(*of_run);
     }
-    if (way[i]) *way[i] *= *of_run / height;
+    if (moved[i]) *moved[i] *= *of_run / height;
   }
   return true;
 }
@@ -110,16 +110,16 @@ bool scale_by_steps(const MotionEvidence& evidence, const TrackScaleOptions& opt
 /// Ties each run by the height of the camera, expected where speed and alignment error put it; by those alone
 /// where too little ground is seen.
 ScaledTrack tie_without_steps(const MotionEvidence& evidence, const TrackScaleOptions& options,
-                              const std::vector<FrameRange>& runs, const Displacements& way) {
-  ScaledTrack tied{.displacement = Displacements(way.size())};
+                              const std::vector<FrameRange>& runs, const Displacements& moved) {
+  ScaledTrack tied{.displacement = Displacements(moved.size())};
   std::optional<double> camera_height;  // in the unit of the tied part
   for (const FrameRange& run : runs) {
     std::optional<SegmentTie> tie;
     if (&run == &runs.front()) {
       tie = SegmentTie{};
     } else {
-      tie = combined(tie_by_speed(evidence.time_s, run, way, tied.displacement, options.tie),
-                     tie_by_relation(evidence, run, way, tied.displacement, options.tie));
+      tie = combined(tie_by_speed(evidence.time_s, run, moved, tied.displacement, options.tie),
+                     tie_by_relation(evidence, run, moved, tied.displacement, options.tie));
     }
     if (!tie) continue;
     std::optional<ExpectedHeight> expected;
@@ -129,7 +129,7 @@ ScaledTrack tie_without_steps(const MotionEvidence& evidence, const TrackScaleOp
     if (height && !camera_height) camera_height = *height * tie->scale;
     const double scale = height ? *camera_height / *height : tie->scale;
     for (std::size_t i = run.begin; i < run.end; ++i)
-      if (way[i]) tied.displacement[i] = scale * *way[i];
+      if (moved[i]) tied.displacement[i] = scale * *moved[i];
   }
   tied.by_ground = camera_height.has_value();
   if (!camera_height || !options.camera_height_m) return tied;
@@ -178,8 +178,8 @@ ScaledTrack tie_track_scale(const MotionEvidence& evidence, const TrackScaleOpti
         options.max_disagreement > 0))
     throw std::invalid_argument("tie_track_scale: windows and disagreement above 0 expected");
   const DisplacementTrack& track = *evidence.track;
-  Displacements way = smoothed_displacement(track, evidence.time_s, options.smoothing_s);
-  if (track.scale == TrackScale::kMetric) return {.displacement = way, .metric = true};
+  Displacements moved = smoothed_displacement(track, evidence.time_s, options.smoothing_s);
+  if (track.scale == TrackScale::kMetric) return {.displacement = moved, .metric = true};
 
   std::vector<FrameRange> runs;
   if (track.scale == TrackScale::kCommon) {
@@ -191,13 +191,13 @@ ScaledTrack tie_track_scale(const MotionEvidence& evidence, const TrackScaleOpti
     }
   }
   std::vector<bool> steady;
-  for (const FrameRange& run : runs) steady.push_back(steady_by_ground(evidence, options, run, way));
-  if (evidence.steps_m.empty()) return tie_without_steps(evidence, options, runs, way);
+  for (const FrameRange& run : runs) steady.push_back(steady_by_ground(evidence, options, run, moved));
+  if (evidence.steps_m.empty()) return tie_without_steps(evidence, options, runs, moved);
 
   ScaledTrack tied{.displacement = Displacements(track.size())};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const double window_s = steady[i] ? options.steady_steps_window_s : options.steps_window_s;
-    tied.metric |= scale_by_steps(evidence, options, runs[i], window_s, way, tied.displacement);
+    tied.metric |= scale_by_steps(evidence, options, runs[i], window_s, moved, tied.displacement);
   }
   return tied;
 }

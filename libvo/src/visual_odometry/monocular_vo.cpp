@@ -179,8 +179,8 @@ class MonocularVo::Impl {
     scene_.frames = std::move(frames);
     scene_.pose = scene_.map.keyframes.back().pose;
     // The mean motion so far is a better guess than that of one frame.
-    const Pose3 way = compose(inverse(scene_.map.keyframes[0].pose), scene_.pose);
-    scene_.motion = interpolate({}, way, 1 / static_cast<double>(waiting_.size()));
+    const Pose3 moved = compose(inverse(scene_.map.keyframes[0].pose), scene_.pose);
+    scene_.motion = interpolate({}, moved, 1 / static_cast<double>(waiting_.size()));
     waiting_.clear();
     renew_landmarks(scene_, grey_, *camera_, scene_options_);
     state_ = State::kTracking;

@@ -31,17 +31,17 @@ bool is_jump(const TrackedScene& scene, const Pose3& to, std::size_t frames,
 void measure_heights(TrackedScene& scene, bool all, const SceneTrackingOptions& options) {
   // Of the median depth: bounce and sway hardly change the direction over a long distance. In a scene that is
   // soon lost it may be a few degrees off, which is better than no height at all.
-  constexpr double kLongWay = 0.5, kLeastWay = 0.25;
+  constexpr double kLongWay = 0.5, kLeastTravel = 0.25;
   const double enough = kLongWay * scene.median_depth;
   const std::vector<Keyframe>& keyframes = scene.map.keyframes;
   while (scene.heights.size() < keyframes.size()) {
     const std::size_t keyframe = scene.heights.size();
     const double gone = cv::norm(scene.pose.position - keyframes[keyframe].pose.position);
     if (!all && gone < enough && keyframe + options.map.window > keyframes.size()) break;
-    const cv::Vec3d way = direction_at(scene.map, keyframe, enough);
+    const cv::Vec3d travelled = direction_at(scene.map, keyframe, enough);
     scene.heights.emplace_back();
-    if (cv::norm(way) >= kLeastWay * scene.median_depth)
-      scene.heights.back() = keyframe_heights(scene.map, keyframe, way, options.ground);
+    if (cv::norm(travelled) >= kLeastTravel * scene.median_depth)
+      scene.heights.back() = keyframe_heights(scene.map, keyframe, travelled, options.ground);
   }
 }
 

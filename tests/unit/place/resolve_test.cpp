@@ -141,7 +141,7 @@ TEST(Resolve, PassesOverWhatHasNoEffectIfAsked) {
   Settings settings;
   settings.motion = "none";
   settings.sampling_n = 3;
-  const Settings resolved = place::resolve(settings, {.pass_over = true});
+  const Settings resolved = place::resolve(settings, {.drop_ineffective = true});
   EXPECT_FALSE(resolved.sampling_n);
   EXPECT_EQ(resolved.every, 1);
 }

@@ -23,7 +23,7 @@ std::vector<PosePair> pair_by_time(const vo::Trajectory& truth, std::span<const 
                                    const vo::Trajectory& estimate);
 
 /// A point of a path drawn on a map, metres.
-struct WayPoint {
+struct MapPoint {
   double x_m = 0;
   double y_m = 0;
 };
@@ -33,7 +33,7 @@ struct WayPoint {
 /// recording, and an estimate that is too long shows as such, as it would by time. The true heading is that
 /// of the leg. One pair for each pose with which the estimate moves forward. Throws `std::invalid_argument`
 /// for a path without length; an estimate without length has no pairs. O(n).
-std::vector<PosePair> pair_by_share(std::span<const WayPoint> way, const vo::Trajectory& estimate);
+std::vector<PosePair> pair_by_share(std::span<const MapPoint> path, const vo::Trajectory& estimate);
 
 /// Settings of `evaluate_odometry`.
 struct OdometryEvaluationOptions {

@@ -30,8 +30,7 @@ struct ContrastEnhancementOptions {
 /// deviations (except `kNone`). `kLocal` uses the sample deviation over the window, cut off at the ends of
 /// the reference (Milford and Wyeth 2012, Eq. 3; OpenSeqSLAM). Where there is no deviation (one reference,
 /// equal costs) the value is 0: neither alike nor unlike. Throws `std::invalid_argument` if window < 2 or
-/// prior_queries < 0. O(queries *
-/// references), in parallel; sums in double in a fixed order.
+/// prior_queries < 0. O(queries * references), in parallel; sums in double in a fixed order.
 void enhance_contrast(CostMatrix& costs, const ContrastEnhancementOptions& options = {});
 
 /// The same for a matrix in parts, in two passes: first all are surveyed, then any are enhanced. A part is a

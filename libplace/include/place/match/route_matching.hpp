@@ -82,8 +82,7 @@ double prior_queries_of(const RouteMatchingOptions& options);
 /// The options for searching a walk on a traverse: sequences of the length asked for, the walk's own
 /// displacement between its keyframes (for `search_path`, in keyframes of the traverse), and where the clock
 /// of either jumped for so long that the distance is unknown (`vo::parts_walk`). `time_s`: of the walk's
-/// frames.
-/// Throws `vo::Error` for a length in metres on a traverse without distances.
+/// frames. Throws `vo::Error` for a length in metres on a traverse without distances.
 SearchOptions search_on_route(const Traverse& traverse, std::span<const double> time_s,
                               const SampledWalk& sampled, const RouteMatchingOptions& options);
 

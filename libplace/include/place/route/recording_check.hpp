@@ -26,7 +26,7 @@ struct RecordingFacts {
   std::size_t steps = 0;
   double steps_hz = 0;       ///< while walking or running
   double walking_share = 0;  ///< of the seconds: walking or running
-  /// Of the time, the walker stands still (`vo::standing_steps`).
+  /// Of the time, the walker stands still (`vo::standing_frames`).
   double standing_share = 0;
   /// Seconds of walking for which two views have something in common, as far as it was looked at (0.2 s at
   /// most); 0 if no motion was learned.

@@ -19,10 +19,10 @@ struct ClockGap {
   bool operator==(const ClockGap&) const = default;
 };
 
-/// A clock that shows no frame for less than this only stutters: within it one makes a step at most.
+/// A clock that shows no frame for less than this only stutters: a walker makes at most one step in it.
 inline constexpr double kShortestGap_s = 0.5;
-/// In a gap up to this long, one is taken to have walked on at the pace around it: four or five steps, and
-/// few stop or turn off within so many. What was walked in a longer one is not known.
+/// In a gap of up to this length the walker is assumed to go on at the pace around it: it is four or five
+/// steps, and few people stop or turn off within them. What was walked in a longer gap is not known.
 inline constexpr double kLongestFilledGap_s = 3;
 
 /// True for a gap too long to be filled.
@@ -34,12 +34,12 @@ inline bool parts_walk(const ClockGap& gap) {
 /// a recording with hardly a frame a second. `time_s` increases. Empty for fewer than two frames. O(n).
 std::vector<ClockGap> clock_gaps(std::span<const double> time_s);
 
-/// The times with gaps longer than `kLongestFilledGap_s` shortened to it, so that nothing is worked out for
-/// the hour in which a recording was paused. O(n).
+/// The times with gaps longer than `kLongestFilledGap_s` shortened to it, so that no stage computes anything
+/// for the hour in which a recording was paused. O(n).
 std::vector<double> without_long_gaps(std::span<const double> time_s);
 
-/// Gives each frame right after a gap what is walked at the pace around it, the mean over the second before
-/// and the second after: so much a second, times the gap's length; 0 where the gap is longer than
+/// Gives each frame right after a gap the displacement of the gap: its length times the pace around it, which
+/// is the mean over the second before and the second after; 0 where the gap is longer than
 /// `kLongestFilledGap_s`. `displacement`: of each frame since the one before, in any unit; those at gaps are
 /// overwritten. Throws `std::invalid_argument` for another number of times. O(n).
 void fill_gaps_by_pace(std::span<const double> time_s, std::span<const ClockGap> gaps,

@@ -7,9 +7,8 @@
 namespace vo {
 
 /// Seconds since 1970 (UTC, without leap seconds) of a time as ISO 8601 and XML Schema write it:
-/// `2024-05-31T12:00:00`, with a point or a comma before any fraction, `T` or a space before the hour, and
-/// `Z`,
-/// `+02:00`, `+0200`, `+02` or nothing, which is taken as UTC, after it. None if the text is anything else.
+/// `2024-05-31T12:00:00`, with a point or a comma before any fraction, and `T` or a space before the hour.
+/// After it `Z`, `+02:00`, `+0200`, `+02`, or nothing, which means UTC. None if the text is anything else.
 std::optional<double> parse_iso_time(std::string_view text);
 
 /// The time as `2024-05-31T12:00:00.000Z`, rounded to milliseconds. `std::invalid_argument` outside the years

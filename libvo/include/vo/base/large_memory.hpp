@@ -6,13 +6,13 @@
 
 namespace vo {
 
-/// Has the system bring the pages of memory just allocated, as few large ones as it can: a fault for each
-/// page that is touched first costs many times as much. Nothing for less than a few megabytes, and where the
-/// system knows no such call; nothing changes but the time. The memory's bytes stay undefined. O(bytes).
+/// Asks the system to map the pages of memory just allocated, in large pages if it can, because a page fault
+/// at the first touch of each small page costs many times as much. Does nothing for less than a few megabytes
+/// or where the system has no such call; only the time changes. The bytes stay undefined. O(bytes).
 void populate(void* memory, std::size_t bytes);
 
-/// Memory that begins at a large page and asks for large ones, which come as they are touched: by several
-/// threads at once, if those do. Bytes are undefined. Throws `std::bad_alloc`.
+/// Memory aligned to a large page, for which large pages are asked. They are mapped when first touched, so
+/// several threads can do that at once. Bytes are undefined. Throws `std::bad_alloc`.
 void* allocate_large(std::size_t bytes);
 void free_large(void* memory);
 

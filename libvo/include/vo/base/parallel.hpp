@@ -21,16 +21,16 @@ int thread_count();
 ///
 /// The threads are OpenMP's. An outermost call opens a parallel region, and a call within it opens none: it
 /// lists its indices for the threads of the region, which sleep while nothing is listed. So an idle thread
-/// takes no processor time from a video decoder's own threads. Only where a region begins and ends does the
-/// runtime choose how its threads wait for each other: libgomp's spin for some 3 ms and sleep then, which
-/// costs the more the less of the processor is free. The program `retrace` has them sleep at once, by setting
-/// OMP_WAIT_POLICY=passive before libgomp is loaded; who uses the library from another program gains the same
-/// by setting that variable in the environment in which the program is started. Calls that follow each other
-/// closely are best made within one `keep_threads`.
+/// takes no processor time from a video decoder's own threads. Where a region begins and ends the runtime
+/// decides how its threads wait for each other: libgomp's spin for about 3 ms and then sleep, which is costly
+/// on a busy processor. The program `retrace` makes them sleep at once by setting OMP_WAIT_POLICY=passive
+/// before libgomp is loaded; other programs get the same by setting that variable in the environment in which
+/// they are started. Make calls that follow each other closely within one `keep_threads`.
 ///
-/// ThreadSanitizer sees all that orders the work of threads, as it is done by a mutex of this project, but
-/// not how a region is entered, which happens within the runtime; that one function is left out of its view.
-/// So GCC's needs no suppressions; Clang's asks for TSAN_OPTIONS=ignore_noninstrumented_modules=1.
+/// ThreadSanitizer sees how the work of threads is ordered, because a mutex of this project does it. It does
+/// not see how a region is entered, which happens inside the runtime, so that one function is excluded from
+/// it. GCC's ThreadSanitizer then needs no suppressions; Clang's asks for
+/// TSAN_OPTIONS=ignore_noninstrumented_modules=1.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Calls `body()` with the threads at hand until it returns: calls of `parallel_for` and `parallel_invoke`

@@ -14,8 +14,8 @@ struct Progress {
   std::optional<std::int64_t> total;  ///< units in all, where known
 };
 
-/// Told now and then how far a stage is; called from the calling thread only. Returning false asks the stage
-/// to stop early and keep what it has (the user pressed Ctrl-C on a live camera).
+/// Called now and then with how far a stage has come, from the calling thread only. Returning false asks the
+/// stage to stop early and keep what it has (the user pressed Ctrl-C on a live camera).
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 }  // namespace vo

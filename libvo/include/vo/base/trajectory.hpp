@@ -20,14 +20,14 @@ using Trajectory = std::vector<TimedPose>;
 /// the trajectory's span by more than `tolerance_s`, within it the end pose. O(log n).
 std::optional<Pose2> pose_at(const Trajectory& trajectory, double time_s, double tolerance_s);
 
-/// Metres over which the heading of a path is taken where nothing else says it: a receiver's or a tracker's
-/// noise does not turn it, and a bend of a path for people is longer.
+/// Metres over which the heading of a path is measured where nothing else gives it: long enough that the
+/// noise of a receiver or a tracker does not turn it, and shorter than the bends of footpaths.
 inline constexpr double kPathHeading_m = 3;
 
-/// Gives every pose the heading of the path: from a pose at least half of `reach_m` behind to one as far
-/// ahead, both taken from poses that far apart along the path, the nearest of them that are; at an end the
-/// end. A path that nowhere goes so far has the heading between its ends; one that does not move keeps
-/// heading 0. O(poses).
+/// Gives every pose the heading of the path around it: the direction from the nearest pose at least half of
+/// `reach_m` behind it along the path to the nearest one as far ahead; near an end, from or to that end. A
+/// path shorter than that has the heading between its ends everywhere; one that does not move keeps heading
+/// 0. O(poses).
 void head_along_path(Trajectory& trajectory, double reach_m);
 
 /// The angle wrapped to (-pi, pi].

@@ -2,7 +2,7 @@
 
 #include "vo/gait/periodicity.hpp"
 #include "vo/gait/step_detection.hpp"
-#include "vo/gait/step_way.hpp"
+#include "vo/gait/step_distance.hpp"
 
 #include <cstddef>
 #include <span>
@@ -15,7 +15,7 @@ struct FootfallOptions {
   double min_depth = 0.2;   ///< least depth of a valley, of the bounce's amplitude around it
   double sure_depth = 0.5;  ///< depth from which a valley is a footfall even if nothing else moves
   double min_step = 0.75;   ///< steps of distance from a footfall to an unsure one beside a pause
-  StepWayOptions way;
+  StepDistanceOptions distance;
   PeriodicityOptions periodicity;  ///< what counts as gait; rates are of bounces, one a step
 };
 

@@ -15,8 +15,8 @@ struct GreyRange {
 
 /// The range that pictures of a walk use: from the 0.1th to the 99.9th percentile of all their values
 /// together, so that a hot or dead pixel does not stretch it. Thermal and depth cameras use a few hundred of
-/// 65536 values, of which the upper 8 bits keep next to nothing. None for no pictures, or pictures of one
-/// value. NaN are passed over. O(pixels).
+/// 65536 values, of which the upper 8 bits would keep almost nothing. None for no pictures, or pictures of
+/// one value. NaN are skipped. O(pixels).
 std::optional<GreyRange> range_of(std::span<const cv::Mat> pictures);
 
 /// The picture in 8 bits, `black` and below 0, `white` and above 255, linear between; of any depth and

@@ -32,8 +32,8 @@ inline constexpr double kStepsPerDeviation = 16;
 
 /// Patch normalisation, SSS Eq. 2: I' = (I - mean_p) / max(sd_p, floor), with population deviations and
 /// floor = max(min_deviation, min_contrast * median sd of the grid's cells). SSS has no floor: a patch of sky
-/// or plain wall is then noise blown up to full contrast, as heavy in every difference as a patch with a
-/// window in it.
+/// or plain wall then becomes noise of full contrast, which counts in every difference as much as a patch
+/// with a window in it.
 ///
 /// `image`: width * height grey bytes, row-major. `out`: as many values, in deviations; a patch without
 /// texture is all 0. Throws `std::invalid_argument` if sizes disagree, patch_px < 2, or (kGrid) a side is no
@@ -41,8 +41,8 @@ inline constexpr double kStepsPerDeviation = 16;
 void patch_normalise(std::span<const std::uint8_t> image, int width, int height,
                      const PatchNormalisationOptions& options, std::span<float> out);
 
-/// How much there is to be seen in each image of a stack: the median deviation of the cells of its grid, grey
-/// levels. Throws `std::invalid_argument` if patch_px < 2. O(pixels), in parallel over the images.
+/// The texture of each image of a stack: the median deviation of the cells of its grid, grey levels. Throws
+/// `std::invalid_argument` if patch_px < 2. O(pixels), in parallel over the images.
 std::vector<double> patch_contrast(const ImageStack& images, int patch_px);
 
 /// `patch_normalise` for every image of a stack, rounded to bytes (see kStepsPerDeviation). Runs in parallel

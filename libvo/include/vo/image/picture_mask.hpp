@@ -8,9 +8,9 @@ namespace vo {
 
 /// Parts of every picture of a walk that are not the scene: a clock drawn over it, a bonnet, a strap.
 ///
-/// What is masked is filled smoothly from around it, by pushing and pulling through a pyramid [Gortler,
-/// Grzeszczuk, Szeliski, Cohen: The Lumigraph, 1996, section 3.4]: no edge that stands still is left for
-/// trackers to follow, and no pattern for thumbnails to agree on.
+/// Masked parts are filled smoothly from around them, by the push-pull pyramid of Gortler, Grzeszczuk,
+/// Szeliski, Cohen: The Lumigraph, 1996, section 3.4. So trackers find no edge there that stands still, and
+/// thumbnails no pattern to agree on.
 class PictureMask {
  public:
   /// `keep`: 8 bits, grey, of the pictures' size; black (below 128) is masked. Throws `std::invalid_argument`

@@ -22,7 +22,7 @@ class CsvTable {
   /// line of column names, then rows of as many cells. Cells are separated by commas, semicolons or tabs,
   /// whichever the header has most of; a cell in double quotes may hold separators, and quotes doubled.
   /// Spaces around a cell, blank lines, rows of empty cells, lines that begin with `#`, Excel's `sep=;`, byte
-  /// order marks and any ends of lines are passed over. A `#` line whose names stand over as many numbers is
+  /// order marks and any ends of lines are skipped. A `#` line whose names stand over as many numbers is
   /// the header (EuRoC's files). Throws `vo::Error` naming the file and line if it cannot be read, has no
   /// header, or a row is uneven.
   static CsvTable read(const std::filesystem::path& path, UnevenRows uneven = UnevenRows::kRefuse);

@@ -55,18 +55,16 @@ class FrameSource {
 };
 
 /// Opens a walk:
-///  - a video file, any that FFmpeg reads. Times are the container's presentation times, so variable frame
-///  rate
-///    comes out right; frames without a usable time follow at the nominal rate, with a warning. Where a tag
-///    says that it was recorded at another rate than it plays at (Android's slow motion and time lapse),
-///    times are those of the recording. The display matrix is applied, mirrored or not, and pixels are made
-///    square. Frames that the decoder says are damaged are counted in a warning, the same in every run; a
-///    video that breaks off gives the frames it has, with a warning;
-///  - a folder of images (png jpg jpeg bmp tif tiff webp pgm ppm) in natural order (`2.png` before `10.png`),
-///  all
-///    of one size; other files and hidden ones are passed over. Images that cannot be read are left out with
-///    a warning, as if the camera had lost them: their time passes, the images after them are numbered
-///    without them. More than a tenth is refused;
+///  - a video file, any that FFmpeg reads. Times are the container's presentation times, so a variable
+///    frame rate comes out right; frames without a usable time follow at the nominal rate, with a warning.
+///    Where a tag says that it was recorded at another rate than it plays at (Android's slow motion and time
+///    lapse), times are those of the recording. The display matrix is applied, mirrored or not, and pixels
+///    are made square. Frames that the decoder says are damaged are counted in a warning, the same in every
+///    run; a video that breaks off gives the frames it has, with a warning;
+///  - a folder of images (png jpg jpeg bmp tif tiff webp pgm ppm) in natural order (`2.png` before
+///    `10.png`), all of one size; other files and hidden ones are skipped. Images that cannot be read are
+///    left out with a warning, as if the camera had lost them: their time passes, and later images are
+///    numbered without them. More than a tenth is refused;
 ///  - `camera:N`, the N-th camera; times are those of arrival;
 ///  - an `rtsp://` address, over TCP; times are the camera's;
 ///  - `-`, Y4M on standard input; times are by its frame rate.

@@ -60,7 +60,7 @@ struct PoseFileOptions {
 ///    there z_m, and qx,qy,qz,qw or heading_deg, clockwise from +y), EuRoC (`#timestamp [ns],p_RS_R_x
 ///    [m],...`) and evo (timestamp,tx,...) give them.
 /// Numbers are separated by spaces, commas, semicolons or tabs; `#` starts a comment; a first line of names
-/// is passed over. Times in nano-, micro- or milliseconds, as a column's name or their size says, are
+/// is skipped. Times in nano-, micro- or milliseconds, as a column's name or their size says, are
 /// converted. Quaternions of any length are normalised. Lines out of order are sorted; lines that are no pose
 /// (cells missing, NaN, a quaternion of zeros, a time that is there already) are left out. All of that is
 /// said in `warnings`. Throws `vo::Error` naming the file, and the first bad line if most are bad; O(n log

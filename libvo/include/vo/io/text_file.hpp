@@ -13,7 +13,7 @@ struct TextLine {
   std::string text;        ///< without the end of the line
 };
 
-/// The lines of a text file as people's programs write them: UTF-8 with or without a byte order mark, or
+/// The lines of a text file as programs write them: UTF-8 with or without a byte order mark, or
 /// UTF-16 with one (spreadsheets' "Unicode text"); ended by LF, CR LF or CR. `expected` says in an error what
 /// the file should have been. Throws `vo::Error` naming the file if it is missing, a folder, or cannot be
 /// read.

@@ -12,12 +12,12 @@ struct FoundAxes {
   GroundPlane ground = GroundPlane::kUnknown;
 };
 
-/// Finds out how the axes of a trajectory lie. People, cars and robots move forward: of the body's axes the
-/// one that points along the path is its forward one, z a camera's and x a vehicle's, and with it up is known
-/// (-y or z), whose mean over the walk says which of the world's axes is up. Where the orientations do not
-/// follow the path (all equal, a camera that looks aside), the world is the one whose path is flat, of which
-/// y or z has less than a tenth of the other's extent, if there is one. A body that does not move is taken to
-/// have retrace's own axes. O(poses).
+/// Finds out how the axes of a trajectory lie. People, cars and robots move forward, so the body's axis that
+/// points along the path is its forward one: z of a camera, x of a vehicle. That gives the body's up (-y or
+/// z), and its mean over the walk shows which of the world's axes is up. Where the orientations do not follow
+/// the path (all equal, or a camera that looks aside), the ground plane is the one in which the path is flat:
+/// y or z has less than a tenth of the other's extent. A body that does not move is taken to have retrace's
+/// own axes. O(poses).
 FoundAxes find_axes(std::span<const Pose3> poses);
 
 }  // namespace vo

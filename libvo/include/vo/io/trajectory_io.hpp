@@ -31,11 +31,11 @@ WalkTruth read_truth(const std::filesystem::path& path);
 Trajectory poses_of(const WalkTruth& truth);
 
 /// The poses of which the distance is known too, and these distances.
-struct PosesOnTheWay {
+struct PosesAlongRoute {
   Trajectory poses;
   std::vector<double> distance_m;
 };
-PosesOnTheWay poses_on_the_way(const WalkTruth& truth);
+PosesAlongRoute poses_along_route(const WalkTruth& truth);
 
 /// The steps made in all: the last of the counts; none where none is known.
 std::optional<std::int64_t> steps_in_all(const WalkTruth& truth);

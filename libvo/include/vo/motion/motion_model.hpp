@@ -72,7 +72,7 @@ std::vector<std::optional<double>> apply_motion_model(const AlignmentErrors& err
 /// The same, in seconds at mean speed, by a model learned from the walk itself, or by one for each local
 /// window. 0 where a gap of the clock leaves nothing to compare.
 ///
-/// `excluded`: frames left out of learning, as from `high_error_windows` and `standing_steps`, or empty.
+/// `excluded`: frames left out of learning, as from `high_error_windows` and `standing_frames`, or empty.
 std::vector<double> estimate_motion(const AlignmentErrors& errors, const std::vector<bool>& excluded,
                                     std::span<const double> time_s, const MotionModelOptions& options = {});
 

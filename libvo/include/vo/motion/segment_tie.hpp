@@ -33,10 +33,10 @@ struct SegmentTieOptions {
 /// much speed varies over that time elsewhere in the tied part. None if the camera is still in the segment or
 /// before it, or nothing is tied.
 ///
-/// Here and below: `run`, the frames of the segment; `way`, its displacements in its own unit; `tied`,
+/// Here and below: `run`, the frames of the segment; `moved`, its displacements in its own unit; `tied`,
 /// displacements before it in the common unit; one of each per frame. O(frames).
 std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRange run,
-                                       std::span<const std::optional<double>> way,
+                                       std::span<const std::optional<double>> moved,
                                        std::span<const std::optional<double>> tied,
                                        const SegmentTieOptions& options = {});
 
@@ -44,7 +44,7 @@ std::optional<SegmentTie> tie_by_speed(std::span<const double> time_s, FrameRang
 /// 3.5). sigma is `relation_sigma`. None without errors, or if there is nothing to learn from.
 /// O(window * separations).
 std::optional<SegmentTie> tie_by_relation(const MotionEvidence& evidence, FrameRange run,
-                                          std::span<const std::optional<double>> way,
+                                          std::span<const std::optional<double>> moved,
                                           std::span<const std::optional<double>> tied,
                                           const SegmentTieOptions& options = {});
 

@@ -17,7 +17,7 @@ double distant_error(const ImageStack& normalised, const std::vector<bool>& excl
 /// third of the error of unrelated pictures.
 bool standing_still(double distant_error);
 
-/// Settings of `standing_steps`.
+/// Settings of `standing_frames`.
 struct StandingOptions {
   double span_s = 2;       ///< seconds over which a moving walker's view changes for good; 0: never standing
   double alike = 2.0 / 3;  ///< share of the distant error below which two views show one place
@@ -33,12 +33,12 @@ struct StandingOptions {
 ///
 /// `normalised`: bytes of `patch_normalise`; `time_s`: one per frame, increasing. O(frames * pixels), in
 /// parallel.
-std::vector<bool> standing_steps(const ImageStack& normalised, std::span<const double> time_s,
-                                 double distant_error, const StandingOptions& options = {});
+std::vector<bool> standing_frames(const ImageStack& normalised, std::span<const double> time_s,
+                                  double distant_error, const StandingOptions& options = {});
 
 /// Where a walker is still, and the measurements behind it.
 struct Pauses {
-  std::vector<bool> standing;  ///< as `standing_steps`; empty if the walk never leaves its first view
+  std::vector<bool> standing;  ///< as `standing_frames`; empty if the walk never leaves its first view
   double distant_error = 0;    ///< that it was decided by
   bool still = false;          ///< the walk never leaves its first view, or shows nothing
 };
@@ -46,7 +46,7 @@ struct Pauses {
 /// The same for a walk about which nothing is known yet. If the walker is still most of the time, frames half
 /// the walk apart mostly show one place and do not measure how much places differ. Then the frames between
 /// the pauses do, and the most different tenth shows whether the walk leaves its first view. Throws and costs
-/// as `standing_steps`.
+/// as `standing_frames`.
 Pauses find_pauses(const ImageStack& normalised, std::span<const double> time_s,
                    const StandingOptions& options = {});
 

@@ -7,7 +7,7 @@
 
 namespace vo {
 
-/// What the neighbourhood of a point looks like, in 64 or 128 numbers (Bay et al. 2008, section 4.2): a
+/// Describes the neighbourhood of a point by 64 or 128 numbers (Bay et al. 2008, section 4.2): a
 /// square of 20 scales, turned by the point's orientation, of 4 x 4 subregions; of each the sums of the Haar
 /// wavelets dx, dy, |dx|, |dy|, by rows of subregions. Extended: dx, |dx| apart for dy < 0 and dy >= 0, and
 /// the other way round.

@@ -30,11 +30,11 @@ struct HessianOptions {
 ///
 /// One deviation: octave o is the first octave on every 2^o-th row and column of the integral image, which is
 /// that of the picture shrunk 2^o times by box averages. Its filters have sides 2^o L (18, 30, 42, 54 in the
-/// second; Bay's are 15, 27, 39, 51) and the grid is as wide as the paper's. So octaves are alike in all but
-/// scale, adjoin without overlap (Bay's count the scales between them twice), and are computed by one loop.
+/// second; Bay's are 15, 27, 39, 51) and the grid is as wide as the paper's. So octaves differ only in scale,
+/// adjoin without overlap (Bay's count the scales between them twice), and are computed by one loop.
 ///
 /// Strength is response * sqrt(scale), where the paper takes the response: of two blobs of equal contrast the
-/// larger outlives blur, as its average is over more pixels (libvo/README.md has the figures).
+/// larger survives blur better, because it averages over more pixels (libvo/README.md has the figures).
 ///
 /// Returns points of which position, scale, response and laplacian are set, the strongest first (then by row,
 /// column and scale), which lie in the image far enough from its rim for the filter above theirs. An image

@@ -5,10 +5,10 @@
 
 namespace vo {
 
-/// The direction that the neighbourhood of a point has in it: where its gradients, weighted by their length
-/// and a Gaussian about the point, gather most within a window of directions (Bay et al. 2008, section 4.1).
-/// The step detection reads the walker's sway off it, so it must turn exactly as the image does, where the
-/// paper asks only for repeatability. Hence these deviations:
+/// The dominant direction of a point's neighbourhood: that of the window of directions in which its
+/// gradients, weighted by their length and a Gaussian about the point, sum to most (Bay et al. 2008,
+/// section 4.1). Step detection reads the walker's sway from it, so it must turn exactly as the image does;
+/// the paper asks only for repeatability. Hence these deviations:
 /// - Gradients come from the smoothed image, sampled between pixels, by a difference whose direction is right
 ///   to fourth order; Haar wavelets of 4 scales are off by up to some 5 degrees at 20 degrees to the axes,
 ///   and their rounding to pixels adds noise.

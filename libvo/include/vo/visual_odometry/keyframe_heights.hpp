@@ -15,7 +15,7 @@ cv::Vec3d direction_at(const LandmarkMap& map, std::size_t keyframe, double enou
 /// How far a keyframe is above each landmark it sees that may be ground, see `heights_above`. Call it some
 /// keyframes later, when the points that were new to it, mainly the nearest ground, have a position.
 /// O(landmarks).
-std::vector<double> keyframe_heights(const LandmarkMap& map, std::size_t keyframe, const cv::Vec3d& way,
+std::vector<double> keyframe_heights(const LandmarkMap& map, std::size_t keyframe, const cv::Vec3d& travelled,
                                      const GroundHeightOptions& options = {});
 
 }  // namespace vo

@@ -20,7 +20,8 @@ class LiveCostsTest : public testing::Test {
   LiveCostsTest() {
     route_.settings.descriptor = "thumbnail";
     add_traverse(route_, "day", day_);
-    options_ = place::stage_options(place::resolve({}, {.route = &route_.settings, .pass_over = true}));
+    options_ =
+        place::stage_options(place::resolve({}, {.route = &route_.settings, .drop_ineffective = true}));
   }
   [[nodiscard]] vo::ImageStack picture(double place_px) const { return wall_.walk({{place_px}}).thumbnails; }
 

@@ -65,7 +65,7 @@ TEST(PairByTime, LeavesOutStandsAndWhatTheEstimateHasNot) {
 TEST(PairByShare, PutsTheEstimateAlongTheWay) {
   // A true way of 3 m north and 1 m east, with a point drawn twice; an estimate of 8 m straight on, that
   // stands for a while.
-  const std::vector<place::WayPoint> way{{0, 0}, {0, 3}, {0, 3}, {1, 3}};
+  const std::vector<place::MapPoint> way{{0, 0}, {0, 3}, {0, 3}, {1, 3}};
   const vo::Trajectory estimate{
       {0, {0, 0, 0}}, {1, {0, 4, 0}}, {2, {0, 4, 1}}, {3, {0, 7, 0}}, {4, {0, 8, 0}}};
   const auto pairs = place::pair_by_share(way, estimate);
@@ -81,8 +81,8 @@ TEST(PairByShare, PutsTheEstimateAlongTheWay) {
   EXPECT_EQ(pairs[2].estimate.y_m, 7);
   EXPECT_THAT(place::pair_by_share(way, {}), IsEmpty());
   EXPECT_THAT(place::pair_by_share(way, {{0, {0, 0, 0}}, {1, {0, 0, 0}}}), IsEmpty());
-  EXPECT_THROW(place::pair_by_share(std::vector<place::WayPoint>{{1, 1}}, estimate), std::invalid_argument);
-  EXPECT_THROW(place::pair_by_share(std::vector<place::WayPoint>{{1, 1}, {1, 1}}, estimate),
+  EXPECT_THROW(place::pair_by_share(std::vector<place::MapPoint>{{1, 1}}, estimate), std::invalid_argument);
+  EXPECT_THROW(place::pair_by_share(std::vector<place::MapPoint>{{1, 1}, {1, 1}}, estimate),
                std::invalid_argument);
 }
 

@@ -195,7 +195,7 @@ TEST(Track, ReadsWhatToGpxWrites) {
   const auto dated = read(place::to_gpx(walk, origin, 1e9));
   EXPECT_THAT(dated.time_s, ElementsAre(0, 1, 1.75));
   EXPECT_EQ(dated.start_utc_s, 1e9 + 0.5);
-  const std::vector<std::optional<double>> probability(walk.size(), 0.5);  // an extension is passed over
+  const std::vector<std::optional<double>> probability(walk.size(), 0.5);  // an extension is skipped
   const auto undated = read(place::to_gpx(walk, origin, {}, probability));
   EXPECT_THAT(undated.time_s, ElementsAre(0.5, 1.5, 2.25));  // since the walk's first frame
   EXPECT_FALSE(undated.start_utc_s);

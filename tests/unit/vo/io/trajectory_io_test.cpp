@@ -53,7 +53,7 @@ TEST(Truth, EmptyCellsAreWhatIsNotKnown) {
   // A pose without its heading is none.
   EXPECT_THAT(vo::poses_of(truth), testing::SizeIs(2));
   EXPECT_EQ(vo::poses_of(truth)[0].time_s, 2);
-  const vo::PosesOnTheWay both = vo::poses_on_the_way(truth);
+  const vo::PosesAlongRoute both = vo::poses_along_route(truth);
   EXPECT_THAT(both.poses, testing::SizeIs(1));
   EXPECT_THAT(both.distance_m, ElementsAre(4));
   EXPECT_THAT(vo::distances_between(truth), ElementsAre(3, 3, 3.5, 4, 6, 6));

@@ -79,37 +79,37 @@ TEST(StandingStill, IsBelowAThirdOfUnrelatedPictures) {
 TEST(StandingSteps, AreThoseOfAPlantedStop) {
   // The walker arrives at frame 40 and leaves after frame 79: the steps to 41 .. 79 are standing.
   const auto walk = walk_with_a_stop(120, 40, 80);
-  const auto standing = vo::standing_steps(walk, times(120), vo::distant_error(walk));
+  const auto standing = vo::standing_frames(walk, times(120), vo::distant_error(walk));
   ASSERT_EQ(standing.size(), 120U);
   for (std::size_t i = 0; i < 120; ++i) EXPECT_EQ(standing[i], i >= 41 && i <= 79) << i;
 }
 
 TEST(StandingSteps, ReachTheEndsOfTheWalk) {
   const auto start = walk_with_a_stop(100, 0, 40);
-  const auto at_start = vo::standing_steps(start, times(100), vo::distant_error(start));
+  const auto at_start = vo::standing_frames(start, times(100), vo::distant_error(start));
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(at_start[i], i >= 1 && i <= 39) << i;
   const auto end = walk_with_a_stop(100, 60, 100);
-  const auto at_end = vo::standing_steps(end, times(100), vo::distant_error(end));
+  const auto at_end = vo::standing_frames(end, times(100), vo::distant_error(end));
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(at_end[i], i >= 61) << i;
 }
 
 TEST(StandingSteps, DoNotSeeAStopShorterThanTheSpan) {
   const auto walk = walk_with_a_stop(120, 40, 55);  // 1.75 s
   const double unlike = vo::distant_error(walk);
-  EXPECT_THAT(vo::standing_steps(walk, times(120), unlike), Each(false));
-  const auto shorter_span = vo::standing_steps(walk, times(120), unlike, {.span_s = 1});
+  EXPECT_THAT(vo::standing_frames(walk, times(120), unlike), Each(false));
+  const auto shorter_span = vo::standing_frames(walk, times(120), unlike, {.span_s = 1});
   EXPECT_EQ(std::ranges::count(shorter_span, true), 14);
-  EXPECT_THAT(vo::standing_steps(walk, times(120), unlike, {.span_s = 0}), Each(false));
+  EXPECT_THAT(vo::standing_frames(walk, times(120), unlike, {.span_s = 0}), Each(false));
 }
 
 TEST(StandingSteps, ArePassedOverWhereOnlyTheEndsOfASpanAreAlike) {
   // The same picture every 2 s and unlike ones between, as along a fence.
   vo::ImageStack walk = random_images(16, 8, 100, 3);
   for (std::size_t i = 16; i < 100; i += 16) std::ranges::copy(walk[0], walk[i].begin());
-  EXPECT_THAT(vo::standing_steps(walk, times(100), vo::distant_error(walk)), Each(false));
+  EXPECT_THAT(vo::standing_frames(walk, times(100), vo::distant_error(walk)), Each(false));
   // With the middle ones alike as well, a span is found; its steps count whatever lies between.
   for (std::size_t i = 8; i < 100; i += 16) std::ranges::copy(walk[0], walk[i].begin());
-  EXPECT_EQ(std::ranges::count(vo::standing_steps(walk, times(100), vo::distant_error(walk)), true), 96);
+  EXPECT_EQ(std::ranges::count(vo::standing_frames(walk, times(100), vo::distant_error(walk)), true), 96);
 }
 
 TEST(StandingSteps, SayNothingOfPicturesOfNothing) {
@@ -118,7 +118,7 @@ TEST(StandingSteps, SayNothingOfPicturesOfNothing) {
   for (std::size_t i = 40; i < 80; ++i)
     std::ranges::fill(walk[i], static_cast<std::uint8_t>(vo::kNeutralByte + i % 2));
   for (std::size_t i = 124; i < 140; ++i) std::ranges::fill(walk[i], vo::kNeutralByte);
-  const auto standing = vo::standing_steps(walk, times(160), vo::distant_error(walk));
+  const auto standing = vo::standing_frames(walk, times(160), vo::distant_error(walk));
   for (std::size_t i = 0; i < 160; ++i) EXPECT_EQ(standing[i], i >= 101 && i <= 123) << i;
 }
 
@@ -127,7 +127,7 @@ TEST(StandingSteps, GoByTimeNotByFrames) {
   const auto walk = walk_with_a_stop(12, 4, 8);
   std::vector<double> time_s(12);
   for (std::size_t i = 0; i < 12; ++i) time_s[i] = static_cast<double>(i);
-  const auto standing = vo::standing_steps(walk, time_s, vo::distant_error(walk));
+  const auto standing = vo::standing_frames(walk, time_s, vo::distant_error(walk));
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(standing[i], i >= 5 && i <= 7) << i;
 }
 
@@ -136,7 +136,7 @@ TEST(StandingSteps, AreNotFoundOverAJumpOfTheClock) {
   const auto walk = walk_with_a_stop(120, 50, 70);
   std::vector<double> time_s = times(120);
   for (std::size_t i = 60; i < 120; ++i) time_s[i] += 5;
-  EXPECT_THAT(vo::standing_steps(walk, time_s, vo::distant_error(walk)), Each(false));
+  EXPECT_THAT(vo::standing_frames(walk, time_s, vo::distant_error(walk)), Each(false));
 }
 
 TEST(FindStands, AreThoseOfStandingStepsWhereMostOfTheWalkMoves) {
@@ -144,7 +144,7 @@ TEST(FindStands, AreThoseOfStandingStepsWhereMostOfTheWalkMoves) {
   const vo::Pauses pauses = vo::find_pauses(walk, times(120));
   EXPECT_FALSE(pauses.still);
   EXPECT_EQ(pauses.distant_error, vo::distant_error(walk));
-  EXPECT_EQ(pauses.standing, vo::standing_steps(walk, times(120), pauses.distant_error));
+  EXPECT_EQ(pauses.standing, vo::standing_frames(walk, times(120), pauses.distant_error));
 }
 
 TEST(FindStands, AreFoundWhereMostOfTheWalkStands) {
@@ -166,17 +166,17 @@ TEST(FindStands, SayThatAWalkNeverLeavesItsFirstView) {
 }
 
 TEST(StandingSteps, OfEmptyAndMismatchedInput) {
-  EXPECT_THAT(vo::standing_steps(random_images(4, 4, 0, 1), {}, 1), IsEmpty());
-  EXPECT_THAT(vo::standing_steps(random_images(4, 4, 1, 1), times(1), 1), testing::ElementsAre(false));
-  EXPECT_THROW(vo::standing_steps(random_images(4, 4, 2, 1), times(3), 1), std::invalid_argument);
+  EXPECT_THAT(vo::standing_frames(random_images(4, 4, 0, 1), {}, 1), IsEmpty());
+  EXPECT_THAT(vo::standing_frames(random_images(4, 4, 1, 1), times(1), 1), testing::ElementsAre(false));
+  EXPECT_THROW(vo::standing_frames(random_images(4, 4, 2, 1), times(3), 1), std::invalid_argument);
 }
 
 TEST(StandingSteps, AreTheSameForAnyThreadCount) {
   const auto walk = walk_with_a_stop(120, 40, 80);
   vo::set_thread_count(1);
-  const auto one = vo::standing_steps(walk, times(120), 1);
+  const auto one = vo::standing_frames(walk, times(120), 1);
   vo::set_thread_count(4);
-  EXPECT_EQ(vo::standing_steps(walk, times(120), 1), one);
+  EXPECT_EQ(vo::standing_frames(walk, times(120), 1), one);
   vo::set_thread_count(0);
 }
 

@@ -1,4 +1,4 @@
-#include "vo/gait/step_way.hpp"
+#include "vo/gait/step_distance.hpp"
 
 #include "vo/base/median.hpp"
 
@@ -83,8 +83,8 @@ void alternate_bridged(std::vector<Step>& steps) {
 
 }  // namespace
 
-StepWay::StepWay(std::span<const double> growth, std::span<const double> time_s,
-                 std::span<const std::size_t> step_frames, const StepWayOptions& options)
+StepDistance::StepDistance(std::span<const double> growth, std::span<const double> time_s,
+                           std::span<const std::size_t> step_frames, const StepDistanceOptions& options)
     : time_s_(time_s), options_(options) {
   const std::vector<Interval> steps = whole_steps(growth, time_s, step_frames, options.missed_ratio);
   if (steps.empty()) return;
@@ -100,12 +100,12 @@ StepWay::StepWay(std::span<const double> growth, std::span<const double> time_s,
     speed.push_back(over_step[i] < options.min_growth ? 0 : std::min(1.0, share(growth[i])));
   }
   walk_on(over_step, speed);
-  way_.push_back(0);
+  steps_.push_back(0);
   for (std::size_t i = 1; i < time_s.size(); ++i)
-    way_.push_back(way_.back() + std::sqrt(speed[i]) * (time_s[i] - time_s[i - 1]) / step_s_[i]);
+    steps_.push_back(steps_.back() + std::sqrt(speed[i]) * (time_s[i] - time_s[i - 1]) / step_s_[i]);
 }
 
-void StepWay::walk_on(std::span<const double> over_step, std::vector<double>& speed) const {
+void StepDistance::walk_on(std::span<const double> over_step, std::vector<double>& speed) const {
   const auto slow = [&](double share) { return share < options_.slow_growth; };
   for (auto begin = over_step.begin(); begin != over_step.end();) {
     begin = std::find_if(begin, over_step.end(), slow);
@@ -121,30 +121,30 @@ void StepWay::walk_on(std::span<const double> over_step, std::vector<double>& sp
   }
 }
 
-std::pair<std::size_t, std::size_t> StepWay::within(std::size_t frame, double seconds) const {
+std::pair<std::size_t, std::size_t> StepDistance::within(std::size_t frame, double seconds) const {
   std::size_t begin = frame, end = frame + 1;
   while (begin > 0 && time_s_[frame] - time_s_[begin - 1] <= seconds) --begin;
   while (end < time_s_.size() && time_s_[end] - time_s_[frame] <= seconds) ++end;
   return {begin, end};
 }
 
-bool StepWay::walking(std::size_t frame) const {
+bool StepDistance::walking(std::size_t frame) const {
   const auto [begin, end] = within(frame, step_s_[frame] / 2);
-  return between(begin, end - 1) >= options_.min_way;
+  return between(begin, end - 1) >= options_.min_distance;
 }
 
-bool StepWay::gap(std::size_t a, std::size_t b) const {
+bool StepDistance::gap(std::size_t a, std::size_t b) const {
   return time_s_[b] - time_s_[a] > options_.missed_ratio * step_s_[b];
 }
 
-std::size_t StepWay::after(std::size_t frame, double steps) const {
-  const auto reached = std::ranges::lower_bound(way_, way_[frame] + steps - 1e-9);  // rounding
-  return std::min(static_cast<std::size_t>(reached - way_.begin()), way_.size() - 1);
+std::size_t StepDistance::after(std::size_t frame, double steps) const {
+  const auto reached = std::ranges::lower_bound(steps_, steps_[frame] + steps - 1e-9);  // rounding
+  return std::min(static_cast<std::size_t>(reached - steps_.begin()), steps_.size() - 1);
 }
 
-StepDetection complete_steps(StepDetection detection, const StepWay& way, std::span<const double> signal,
-                             std::span<const double> time_s) {
-  if (!way.known() || detection.steps.empty()) return detection;
+StepDetection complete_steps(StepDetection detection, const StepDistance& walked,
+                             std::span<const double> signal, std::span<const double> time_s) {
+  if (!walked.known() || detection.steps.empty()) return detection;
   std::vector<Step> steps;
   const auto add_lost = [&](std::size_t frame) {
     steps.push_back({frame, time_s[frame], Leg::kLeft, signal[frame], true});
@@ -153,26 +153,26 @@ StepDetection complete_steps(StepDetection detection, const StepWay& way, std::s
   // quarter step.
   const auto lost = [](double steps_of_way) { return std::max(0.0, std::floor(steps_of_way - 0.25)); };
 
-  const double before = way.between(0, detection.steps.front().frame);
-  for (double k = lost(before); k >= 1; --k) add_lost(way.after(0, before - k));
+  const double before = walked.between(0, detection.steps.front().frame);
+  for (double k = lost(before); k >= 1; --k) add_lost(walked.after(0, before - k));
   steps.push_back(detection.steps.front());
   for (const Step& step : std::span(detection.steps).subspan(1)) {
     const std::size_t from = steps.back().frame;
-    const double length = way.between(from, step.frame);
-    const double count = way.gap(from, step.frame) ? std::round(length) : 1;
+    const double length = walked.between(from, step.frame);
+    const double count = walked.gap(from, step.frame) ? std::round(length) : 1;
     if (count >= 1) {
-      for (double k = 1; k < count; ++k) add_lost(way.after(from, length * k / count));
+      for (double k = 1; k < count; ++k) add_lost(walked.after(from, length * k / count));
       steps.push_back(step);
     } else if (std::abs(step.value) > std::abs(steps.back().value)) {
       steps.back() = step;
     }
   }
   const std::size_t last = steps.back().frame;
-  const double after = way.between(last, time_s.size() - 1);
-  for (double k = 1; k <= lost(after); ++k) add_lost(way.after(last, k));
+  const double after = walked.between(last, time_s.size() - 1);
+  for (double k = 1; k <= lost(after); ++k) add_lost(walked.after(last, k));
 
-  detection.partial = {.first = std::min(1.0, way.between(0, steps.front().frame)),
-                       .after = std::min(1.0, way.between(steps.back().frame, time_s.size() - 1))};
+  detection.partial = {.first = std::min(1.0, walked.between(0, steps.front().frame)),
+                       .after = std::min(1.0, walked.between(steps.back().frame, time_s.size() - 1))};
   alternate_bridged(steps);
   detection.bridged = static_cast<std::size_t>(std::ranges::count(steps, true, &Step::bridged));
   detection.steps = std::move(steps);

@@ -9,12 +9,12 @@
 
 namespace vo {
 
-/// Settings of `StepWay`.
-struct StepWayOptions {
+/// Settings of `StepDistance`.
+struct StepDistanceOptions {
   double min_growth = 0.2;    ///< share of the usual growth, over a step's time, from which the walker moves
   double slow_growth = 0.5;   ///< share of the usual growth, over a step's time, below which it may be a halt
   double min_stand = 2;       ///< shortest pause, in steps' time: to stop and start again takes that long
-  double min_way = 0.3;       ///< steps made in the time of one, around a frame at which the walker moves
+  double min_distance = 0.3;  ///< steps made in the time of one, around a frame at which the walker moves
   double missed_ratio = 1.5;  ///< times a usual step: a longer gap may hide lost steps or be a pause
 };
 
@@ -26,16 +26,16 @@ struct StepWayOptions {
 /// one times the square root of growth over usual growth, at most 1. The walker is still where mean growth
 /// over the time of a step, in which noise and sway cancel, is below a least share. Where the picture usually
 /// does not grow, as in a turn before a wall, the cadence is the usual one.
-class StepWay {
+class StepDistance {
  public:
   /// `growth`: share by which the picture grows, one per frame, low-passed, unreliable frames bridged;
   /// `time_s`: one per frame, must outlive the object; `step_frames`: of sure steps, increasing. O(frames *
   /// frames in a step).
-  StepWay(std::span<const double> growth, std::span<const double> time_s,
-          std::span<const std::size_t> step_frames, const StepWayOptions& options = {});
+  StepDistance(std::span<const double> growth, std::span<const double> time_s,
+               std::span<const std::size_t> step_frames, const StepDistanceOptions& options = {});
 
   /// False if no two steps followed each other: then growth has no scale, and nothing below may be called.
-  [[nodiscard]] bool known() const { return !way_.empty(); }
+  [[nodiscard]] bool known() const { return !steps_.empty(); }
 
   /// True if the picture grows at a frame as it does in walking. O(frames in a step).
   [[nodiscard]] bool walking(std::size_t frame) const;
@@ -44,7 +44,7 @@ class StepWay {
   [[nodiscard]] bool gap(std::size_t a, std::size_t b) const;
 
   /// Steps from frame `a` to frame `b`.
-  [[nodiscard]] double between(std::size_t a, std::size_t b) const { return way_[b] - way_[a]; }
+  [[nodiscard]] double between(std::size_t a, std::size_t b) const { return steps_[b] - steps_[a]; }
 
   /// The first frame at which `steps` more have been made since `frame`; the last frame if there is none.
   /// O(log frames).
@@ -61,9 +61,9 @@ class StepWay {
   void walk_on(std::span<const double> over_step, std::vector<double>& speed) const;
 
   std::span<const double> time_s_;
-  StepWayOptions options_;
+  StepDistanceOptions options_;
   std::vector<double> step_s_;  // usual, near each frame
-  std::vector<double> way_;     // steps up to each frame
+  std::vector<double> steps_;   // steps up to each frame
 };
 
 /// Adds the steps that the distance walked shows were lost, and removes those seen twice.
@@ -75,7 +75,7 @@ class StepWay {
 /// last, steps were lost if the distance there is clearly longer than one. Added steps are marked as bridged,
 /// placed by distance, and alternate. The distance left over at both ends is `partial`. O(frames + steps *
 /// log frames).
-StepDetection complete_steps(StepDetection detection, const StepWay& way, std::span<const double> signal,
-                             std::span<const double> time_s);
+StepDetection complete_steps(StepDetection detection, const StepDistance& walked,
+                             std::span<const double> signal, std::span<const double> time_s);
 
 }  // namespace vo
