@@ -3,7 +3,7 @@
 #   setup.sh [--tests | --benches]     with --tests also what the tests need, with --benches what the benches compare with
 set -euo pipefail
 
-packages=(cmake g++ ninja-build libopencv-dev libavformat-dev libswscale-dev libeigen3-dev libceres-dev libsqlite3-dev libpugixml-dev libcli11-dev nlohmann-json3-dev
+packages=(cmake g++ ninja-build libopencv-dev libavformat-dev libswscale-dev libeigen3-dev libceres-dev libsqlite3-dev libpugixml-dev libexiv2-dev libcli11-dev nlohmann-json3-dev
   libspdlog-dev libfmt-dev libflann-dev liblz4-dev libcpp-httplib-dev libjs-chart.js)
 if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libgmock-dev clang-format clang-tidy python3 python3-dev python3-numpy python3-pytest pybind11-dev ffmpeg bc

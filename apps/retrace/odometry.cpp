@@ -1,10 +1,13 @@
 #include "command.hpp"
+#include "imu_steps.hpp"
 #include "odometry_files.hpp"
 #include "progress_bar.hpp"
 #include "run_directory.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -25,6 +28,7 @@ struct OdometryOptions {
   std::optional<double> walk_length_m;
   bool visual_odometry = false;
   bool close_loops = false;
+  std::string imu;  ///< "video", or none
 };
 
 /// The step length with which the steps seen add up to the walk's known distance.
@@ -37,7 +41,8 @@ double measured_step_length_m(const OdometryOptions& options, const vo::Walk& wa
 }
 
 void print(const OdometryOptions& options, const vo::Walk& walk, const vo::WalkMotion& walked,
-           const place::Settings& settings, const place::ClosedLoops& loops, const WrittenOdometry& written) {
+           const place::Settings& settings, const place::ClosedLoops& loops, const WrittenOdometry& written,
+           const std::optional<std::size_t>& imu_steps) {
   const auto row = [](std::string_view name, const std::string& value, const std::string& note) {
     fmt::print("  {:<10}{:>10}   {}\n", name, value, note);
   };
@@ -45,6 +50,7 @@ void print(const OdometryOptions& options, const vo::Walk& walk, const vo::WalkM
   fmt::print("{}\n", walk.source);
   row("steps", std::to_string(motion.detection.steps.size()),
       fmt::format("{} of them bridged", motion.detection.bridged));
+  if (imu_steps) row("imu", std::to_string(*imu_steps), "steps by the camera's accelerometer");
   row("distance", fmt::format("{:.1f} {}", written.distance, written.unit),
       walked.metric ? fmt::format("steps of {:.3f} m", settings.step_length.value_or(0))
                     : "no steps, so no metres: see --camera-height-m");
@@ -76,15 +82,18 @@ void odometry(const OdometryOptions& options) {
   const vo::WalkMotion walked = vo::motion_with_steps(walk, stages.sampling.source, stages.sampling.motion);
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
   for (const std::string& warning : walked.warnings) spdlog::warn("{}", warning);
+  std::optional<std::size_t> by_imu;
+  if (!options.imu.empty()) by_imu = imu_steps(options.imu, walk);
   place::ClosedLoops loops;
   if (options.close_loops) loops = place::close_loops(walk, walked, {.patch = stages.matching.patch});
-  const WrittenOdometry written = write_odometry(
-      options.output, walk, walked, settings,
-      {.loops = options.close_loops ? &loops : nullptr, .visual_odometry = options.visual_odometry});
+  const WrittenOdometry written = write_odometry(options.output, walk, walked, settings,
+                                                 {.loops = options.close_loops ? &loops : nullptr,
+                                                  .visual_odometry = options.visual_odometry,
+                                                  .imu_steps = by_imu});
   if (options.common.json) {
     fmt::print("{}", written.summary);
   } else {
-    print(options, walk, walked, settings, loops, written);
+    print(options, walk, walked, settings, loops, written, by_imu);
   }
 }
 
@@ -102,6 +111,9 @@ std::function<void()> declare_odometry(Arguments& arguments) {
                  "write visual_odometry.csv and .tum as well: the camera's path, and why it was lost");
   arguments.flag("--close-loops", options->close_loops,
                  "find where the walk comes back to its own path, and correct the trajectory's drift by it");
+  arguments.option(
+      "--imu", options->imu,
+      "`video`: also count steps by the accelerometer track of a GoPro's video, as a check [none]");
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kMotion, kOdometry, kGeneral},
                      {"every", "spacing-m", "sampling-n", "tie-scale", "motion-file", "motion-file-start-s",

@@ -214,6 +214,7 @@ WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, con
                                const place::Settings& settings, const OdometryExtras& extras) {
   ordered_json json = summary(walk, walked, settings.step_length.value_or(0));
   vo::Trajectory trajectory = walked.trajectory;
+  if (extras.imu_steps) json["imu_steps"] = *extras.imu_steps;
   if (extras.loops != nullptr) {
     json["loops"] = {{"keyframes", extras.loops->loops}, {"believed", extras.loops->believed}};
     trajectory = extras.loops->trajectory;

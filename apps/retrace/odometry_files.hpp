@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ extern const std::vector<std::string> kOdometryFiles;
 struct OdometryExtras {
   const place::ClosedLoops* loops = nullptr;  ///< the trajectory with loops, and the one before
   bool visual_odometry = false;               ///< visual_odometry.csv and .tum
+  std::optional<std::size_t> imu_steps;       ///< those that the accelerometer shows
 };
 
 /// Facts about the walk.

@@ -54,6 +54,7 @@ TraverseFiles traverse_files(const std::vector<std::string>& given, const place:
 vo::FrameSourceOptions reading_of(const place::Settings& settings) {
   place::Settings reading;
   reading.frame_rate_hz = settings.frame_rate_hz;
+  reading.exif_times = settings.exif_times;
   reading.crop = settings.crop;
   return place::stage_options(reading).walk.frames;
 }

@@ -10,12 +10,15 @@
 namespace retrace {
 namespace {
 
-/// The file with the track: of `--track video`, the walk's own.
+/// Where the track is: of `--track video` and `--track pictures`, in the walk itself.
 std::string track_file(const std::string& track, const vo::Walk& walk) {
-  if (track != "video") return track;
+  if (track != "video" && track != "pictures") return track;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(walk.source, ignored))
-    throw vo::Error("--track video", fmt::format("is given for {}", walk.source), "a walk of one video file");
+  const bool video = track == "video";
+  if (!(video ? std::filesystem::is_regular_file(walk.source, ignored)
+              : std::filesystem::is_directory(walk.source, ignored)))
+    throw vo::Error("--track " + track, fmt::format("is given for {}", walk.source),
+                    video ? "a walk of one video file" : "a walk of one folder of pictures");
   return walk.source;
 }
 
@@ -30,7 +33,7 @@ void declare_survey(Arguments& arguments, SurveyFiles& files) {
   Argument track = arguments.option(
       "--track", files.track,
       "GPS track of the walk: .gpx; .csv with time_s since the first frame, lat_deg, lon_deg; a GoPro's "
-      "video, or `video` for that of the walk itself");
+      "video; `video` or `pictures` for that in the walk's own file, or in its pictures' EXIF data");
   track.excludes(truth).excludes(trajectory.excludes(truth));
   arguments
       .option(

@@ -24,6 +24,13 @@ constexpr std::array kTable{
                 "frames per second, instead of a video's own times (slow motion, time lapse); of a "
                 "folder of images, which carries no times [30]",
             .at_reading = true},
+    Setting{.name = "exif-times",
+            .field = &Settings::exif_times,
+            .group = kReading,
+            .of_route = kNo,
+            .standard = "false",
+            .description = "times of a folder's pictures from their EXIF data, instead of a frame rate",
+            .at_reading = true},
     Setting{.name = "crop",
             .field = &Settings::crop,
             .group = kReading,

@@ -79,6 +79,7 @@ void put_axes(const std::optional<std::string>& value, vo::TrajectoryAxes& targe
 void put_reading(const Settings& s, StageOptions& options) {
   vo::WalkOptions& walk = options.walk;
   put(s.frame_rate_hz, walk.frames.frame_rate_hz);
+  put(s.exif_times, walk.frames.exif_times);
   put_crop(s.crop, walk.frames.crop);
   put(s.mask, walk.frames.mask);
   put(s.thumbnail_width, walk.thumbnail.width);

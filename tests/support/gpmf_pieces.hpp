@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -44,6 +46,16 @@ inline std::string gps5_piece(const std::vector<LatLon>& positions, int fix = 3)
       gpmf_container("STRM", gpmf_entry("GPSF", 'L', 4, big_endian(fix, 4)) +
                                  gpmf_entry("SCAL", 'l', 4, scales) + gpmf_entry("GPS5", 'l', 20, values));
   return gpmf_container("DEVC", gpmf_entry("DVNM", 'c', 1, "Camera") + other + gps);
+}
+
+/// A piece with accelerations along the camera's axes, m/s^2, to 1/418 of it (as a HERO has them).
+inline std::string accl_piece(const std::vector<std::array<double, 3>>& accelerations) {
+  constexpr double kScale = 418;
+  std::string values;
+  for (const auto& acceleration : accelerations)
+    for (const double along : acceleration) values += big_endian(std::lround(along * kScale), 2);
+  return gpmf_container("DEVC", gpmf_container("STRM", gpmf_entry("SCAL", 's', 2, big_endian(418, 2)) +
+                                                           gpmf_entry("ACCL", 's', 6, values)));
 }
 
 }  // namespace test_support

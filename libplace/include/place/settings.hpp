@@ -15,6 +15,7 @@ namespace place {
 struct Settings {
   // Reading
   std::optional<double> frame_rate_hz;
+  std::optional<bool> exif_times;
   std::optional<std::string> crop, mask;
   std::optional<int> thumbnail_width, thumbnail_height, preview_width_px;
   std::optional<int> patch_px;

@@ -93,7 +93,11 @@ Survey survey_of(TimedPath path, const vo::Walk& walk, const SurveyOptions& opti
   path.segment.resize(path.poses.size(), 0);
   // A pose may lie up to a frame before the first or after the last.
   const double tolerance_s = duration_s(walk) / static_cast<double>(walk.frames() - 1);
-  Survey survey{.source = path.file.filename().string(), .surveyed = true, .pose = {}, .distance_m = {}};
+  Survey survey{
+      .source = (path.file.has_filename() ? path.file : path.file.parent_path()).filename().string(),
+      .surveyed = true,
+      .pose = {},
+      .distance_m = {}};
   std::optional<vo::Pose2> before;
   double travelled_m = 0;
   for (const double time_s : walk.time_s) {
@@ -159,7 +163,8 @@ Survey survey_from_track(const std::filesystem::path& path, const vo::Walk& walk
                          std::optional<GeographicOrigin>& origin, const SurveyOptions& options) {
   GeographicTrack track = read_track(path, {.track_name = options.track_name,
                                             .video_start_utc_s = walk.start_utc_s,
-                                            .video_duration_s = duration_s(walk)});
+                                            .video_duration_s = duration_s(walk),
+                                            .picture_time_s = walk.time_s});
   if (!origin) origin = {track.points.front().latitude_deg, track.points.front().longitude_deg};
   TimedPath timed_path{.file = path,
                        .poses = local_trajectory(track, *origin),

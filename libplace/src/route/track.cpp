@@ -13,6 +13,8 @@
 #include <vo/base/error.hpp>
 #include <vo/base/iso_time.hpp>
 #include <vo/io/csv.hpp>
+#include <vo/io/frame_source.hpp>
+#include <vo/io/picture_tags.hpp>
 #include <vo/io/text_file.hpp>
 #include <vo/io/video_positions.hpp>
 
@@ -255,9 +257,37 @@ GeographicTrack read_from_video(const std::filesystem::path& path, const TrackOp
   return in_order(track, path.string(), std::move(warnings));
 }
 
+/// The positions that a camera wrote into its pictures.
+GeographicTrack read_from_pictures(const std::filesystem::path& path, const TrackOptions& options) {
+  const std::string folder = path.string();
+  if (!options.track_name.empty())
+    throw vo::Error(folder, "is a folder of pictures, which is one track", "no --track-name");
+  const std::vector<std::string> files = vo::image_files(folder);
+  if (files.size() != options.picture_time_s.size()) {
+    throw vo::Error(
+        folder,
+        fmt::format("has {} pictures, and the walk {} frames", files.size(), options.picture_time_s.size()),
+        "the folder that the walk is read from, every picture readable");
+  }
+  FileTrack track{.all = files.size()};
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto position_deg = vo::read_picture_tags(files[i]).position_deg;
+    const GeographicPoint place =
+        position_deg ? GeographicPoint{position_deg->first, position_deg->second} : GeographicPoint{};
+    if (position_deg && on_earth(place)) {
+      track.points.push_back({options.picture_time_s[i], place});
+    } else {
+      ++track.without_place;
+    }
+  }
+  return in_order(track, folder, {});
+}
+
 }  // namespace
 
 GeographicTrack read_track(const std::filesystem::path& path, const TrackOptions& options) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) return read_from_pictures(path, options);
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   constexpr std::array<std::string_view, 4> kVideos{".mp4", ".mov", ".lrv", ".360"};

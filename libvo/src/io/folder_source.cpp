@@ -1,6 +1,7 @@
 #include "io/frame_sources.hpp"
 #include "vo/base/error.hpp"
 #include "vo/image/grey_range.hpp"
+#include "vo/io/picture_tags.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,13 +47,14 @@ class FolderSource final : public SampledSource {
  public:
   FolderSource(const std::string& folder, const FrameSourceOptions& options)
       : folder_(folder),
+        files_(image_files(folder)),
         rate_hz_(options.frame_rate_hz.value_or(kImageRate_hz)),
         look_ahead_(options.look_ahead) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      if (entry.is_regular_file() && is_image_name(entry.path())) files_.push_back(entry.path().string());
-    }
-    if (files_.empty()) throw Error(folder, "holds no image", "png, jpg, bmp, tif, webp, pgm or ppm files");
-    std::ranges::sort(files_, natural_less);
+    if (!options.exif_times) return;
+    std::vector<PictureTags> tags;
+    for (const std::string& file : files_) tags.push_back(read_picture_tags(file));
+    times_s_ = picture_times_s(files_, tags);
+    if (tags.front().utc) start_utc_s_ = tags.front().time_s;
   }
 
   std::optional<Frame> next() override {
@@ -73,9 +75,8 @@ class FolderSource final : public SampledSource {
                     fmt::format("{}x{} as {}", size_.width, size_.height, first_));
       }
       if (!origin_) origin_ = position;
-      return Frame{.index = count_++,
-                   .time_s = static_cast<double>(position - *origin_) / rate_hz_,
-                   .image = in_8_bits(image)};
+      return Frame{
+          .index = count_++, .time_s = time_s(position) - time_s(*origin_), .image = in_8_bits(image)};
     }
     return std::nullopt;
   }
@@ -95,6 +96,11 @@ class FolderSource final : public SampledSource {
     return static_cast<std::int64_t>(files_.size());
   }
 
+  [[nodiscard]] std::optional<double> start_utc_s() const override {
+    if (!start_utc_s_ || !origin_) return start_utc_s_;
+    return *start_utc_s_ + time_s(*origin_);
+  }
+
   [[nodiscard]] std::vector<std::string> warnings() const override {
     std::vector<std::string> all;
     if (!left_out_.empty()) {
@@ -111,6 +117,11 @@ class FolderSource final : public SampledSource {
   }
 
  private:
+  /// Of an image since the first file.
+  [[nodiscard]] double time_s(std::size_t position) const {
+    return times_s_.empty() ? static_cast<double>(position) / rate_hz_ : times_s_[position];
+  }
+
   /// Images from all over the folder, those that can be read.
   [[nodiscard]] std::vector<cv::Mat> read_some(std::size_t count) const {
     std::vector<cv::Mat> images;
@@ -146,6 +157,8 @@ class FolderSource final : public SampledSource {
 
   std::string folder_;
   std::vector<std::string> files_;
+  std::vector<double> times_s_;  ///< of the files by their EXIF data; empty: by the rate
+  std::optional<double> start_utc_s_;
   double rate_hz_;
   bool look_ahead_;
   std::size_t next_ = 0;
@@ -158,6 +171,16 @@ class FolderSource final : public SampledSource {
 };
 
 }  // namespace
+
+std::vector<std::string> image_files(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && is_image_name(entry.path())) files.push_back(entry.path().string());
+  }
+  if (files.empty()) throw Error(folder, "holds no image", "png, jpg, bmp, tif, webp, pgm or ppm files");
+  std::ranges::sort(files, natural_less);
+  return files;
+}
 
 std::unique_ptr<SampledSource> open_folder(const std::string& folder, const FrameSourceOptions& options) {
   return std::make_unique<FolderSource>(folder, options);

@@ -49,6 +49,11 @@ void check(const FrameSourceOptions& options) {
 }
 
 std::unique_ptr<SampledSource> open_as_it_is(const std::string& walk, const FrameSourceOptions& options) {
+  std::error_code none;
+  if (options.exif_times && !fs::is_directory(walk, none))
+    throw Error(walk, "is no folder of images, whose EXIF data --exif-times reads", "no exif-times");
+  if (options.exif_times && options.frame_rate_hz)
+    throw Error("--exif-times", "and --frame-rate-hz are both given", "one of them: each sets the times");
   if (const std::optional<int> number = camera_number(walk)) {
     if (options.frame_rate_hz)
       throw Error(walk, "has times of its own, those of arrival", "no frame-rate-hz for a camera");

@@ -90,22 +90,52 @@ bool take_positions(const std::vector<Entry>& stream, std::vector<GpmfPosition>&
   return true;
 }
 
-/// Streams may lie in devices, which lie in the piece: three levels, and no more are followed.
-bool take_all(Bytes bytes, int levels, std::vector<GpmfPosition>& positions) {
+/// The accelerations of one stream, appended; false if it is damaged.
+bool take_accelerations(const std::vector<Entry>& stream, std::vector<std::array<double, 3>>& accelerations) {
+  constexpr std::size_t kAxes = 3, kSize = 2 * kAxes;
+  const Entry* values = find(stream, "ACCL");
+  if (values == nullptr) return true;
+  const Entry* scale = find(stream, "SCAL");
+  const std::vector<double> scales = scale != nullptr ? scales_of(*scale) : std::vector<double>();
+  if (values->value_size != kSize || (scales.size() != 1 && scales.size() != kAxes)) return false;
+  if (std::ranges::find(scales, 0) != scales.end()) return false;
+  for (std::size_t i = 0; i < values->count; ++i) {
+    std::array<double, kAxes> acceleration{};
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      const auto raw = static_cast<std::int16_t>(number_at(values->data, i * kSize + 2 * axis, 2));
+      acceleration[axis] = raw / scales[scales.size() == 1 ? 0 : axis];
+    }
+    accelerations.push_back(acceleration);
+  }
+  return true;
+}
+
+/// What `take` appends of each stream. Streams may lie in devices, which lie in the piece: three levels, and
+/// no more are followed. False if any is damaged.
+template <typename Value>
+bool take_all(Bytes bytes, int levels, bool (*take)(const std::vector<Entry>&, std::vector<Value>&),
+              std::vector<Value>& values) {
   const auto entries = entries_of(bytes);
-  if (!entries || !take_positions(*entries, positions)) return false;
+  if (!entries || !take(*entries, values)) return false;
   return std::ranges::all_of(*entries, [&](const Entry& entry) {
-    return entry.type != 0 || levels == 0 || take_all(entry.data, levels - 1, positions);
+    return entry.type != 0 || levels == 0 || take_all(entry.data, levels - 1, take, values);
   });
 }
+
+constexpr int kLevels = 3;
 
 }  // namespace
 
 std::optional<std::vector<GpmfPosition>> gpmf_positions(std::span<const std::uint8_t> piece) {
   std::vector<GpmfPosition> positions;
-  constexpr int kLevels = 3;
-  if (!take_all(piece, kLevels, positions)) return std::nullopt;
+  if (!take_all(piece, kLevels, take_positions, positions)) return std::nullopt;
   return positions;
+}
+
+std::optional<std::vector<std::array<double, 3>>> gpmf_accelerations(std::span<const std::uint8_t> piece) {
+  std::vector<std::array<double, 3>> accelerations;
+  if (!take_all(piece, kLevels, take_accelerations, accelerations)) return std::nullopt;
+  return accelerations;
 }
 
 }  // namespace vo

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,5 +20,8 @@ struct GpmfPosition {
 /// The positions in one piece of telemetry, in order; none if there are none. No result if the piece is
 /// damaged: an entry that is longer than what holds it, positions without a scale, or of another shape.
 std::optional<std::vector<GpmfPosition>> gpmf_positions(std::span<const std::uint8_t> piece);
+
+/// The accelerations in one piece (ACCL), m/s^2 along the camera's axes, in order; as `gpmf_positions`.
+std::optional<std::vector<std::array<double, 3>>> gpmf_accelerations(std::span<const std::uint8_t> piece);
 
 }  // namespace vo

@@ -26,11 +26,14 @@ struct TrackOptions {
   std::string track_name;  ///< track to read from a GPX file, or its number from 1; empty: see below
   std::optional<double> video_start_utc_s;  ///< when the walk began, if its video says so
   double video_duration_s = 0;
+  std::vector<double> picture_time_s;  ///< of each picture of a folder whose own positions are read
 };
 
 /// Reads a track: a GPX file, recognised by its ending or its first character, a video of a GoPro (.mp4,
-/// .mov, .lrv, .360: `vo::read_video_positions`), or a CSV file with columns time_s, latitude_deg (or
-/// lat_deg), longitude_deg (or lon_deg). Times of the last two are used unchanged, since the first frame.
+/// .mov, .lrv, .360: `vo::read_video_positions`), a folder of pictures with positions in their EXIF data
+/// (`vo::read_picture_tags`; pictures without one are left out), or a CSV file with columns time_s,
+/// latitude_deg (or lat_deg), longitude_deg (or lon_deg). Times of the last three are used unchanged, since
+/// the first frame.
 ///
 /// In a GPX file every `trkpt` with a place and a time counts, in any encoding, name space prefix or time
 /// zone; segments are sorted by time. Points without place (0, 0 is none) or time, out of order within a

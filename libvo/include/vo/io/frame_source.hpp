@@ -28,6 +28,9 @@ struct FrameSourceOptions {
   /// walk (slow motion, time lapse) and whose file does not say so. None: a folder of images, which carries
   /// no times, has `kImageRate_hz`. Refused for a camera, whose pictures come when they come.
   std::optional<double> frame_rate_hz;
+  /// Times of a folder's pictures from their EXIF data (`picture_times_s`) instead of a rate. Refused with
+  /// `frame_rate_hz`, and for all but folders.
+  bool exif_times = false;
   int colour_width_px = 0;  ///< pixels, at most, of a video's pictures in colour; 0: none
   /// The part of every picture, upright and with square pixels, that is read. None: black bars are found and
   /// left out, where the recording can be looked at beforehand (`look_ahead`).
@@ -82,6 +85,9 @@ std::unique_ptr<FrameSource> open_frame_source(const std::string& walk,
 std::unique_ptr<FrameSource> open_frame_source(std::span<const std::string> walks,
                                                const FrameSourceOptions& options = {});
 inline constexpr double kUnknownPause_s = 1;
+
+/// The images of a folder in natural order, hidden files left out. Throws `vo::Error` if there is none.
+std::vector<std::string> image_files(const std::string& folder);
 
 /// True if `a` comes before `b` when runs of digits compare as numbers and all else as bytes. A strict weak
 /// order in which only equal strings are equivalent.

@@ -1,3 +1,4 @@
+#include "support/exif_pictures.hpp"
 #include "support/gpmf_pieces.hpp"
 #include "support/replaced.hpp"
 #include "support/temporary_folder.hpp"
@@ -235,6 +236,23 @@ TEST(Track, HeadingsDoNotLookAcrossSegments) {
   }
   for (const auto& pose : place::local_trajectory(track, origin))
     EXPECT_NEAR(pose.pose.heading_rad, std::numbers::pi / 2, 1e-6) << pose.time_s;
+}
+
+TEST(Track, IsThatOfTheWalksPictures) {
+  const TemporaryFolder folder;
+  const cv::Mat picture(8, 16, CV_8UC1, cv::Scalar(90));
+  test_support::write_exif_picture(folder / "1.jpg", picture, {.position_deg = {{51.5, -0.25}}});
+  test_support::write_exif_picture(folder / "2.jpg", picture, {});
+  test_support::write_exif_picture(folder / "10.jpg", picture, {.position_deg = {{51.75, -0.5}}});
+  const place::GeographicTrack track = place::read_track(folder.path(), {.picture_time_s = {0, 0.5, 1}});
+  EXPECT_THAT(track.time_s, ElementsAre(0, 1));
+  EXPECT_DOUBLE_EQ(track.points[1].latitude_deg, 51.75);
+  EXPECT_DOUBLE_EQ(track.points[1].longitude_deg, -0.5);
+  EXPECT_THAT(track.warnings, ElementsAre(HasSubstr("1 of 3 points are left out: 1 without a place")));
+  EXPECT_THROW(place::read_track(folder.path(), {.picture_time_s = {0, 1}}), vo::Error)
+      << "a picture that could not be read: which place is whose is not known";
+  EXPECT_THROW(place::read_track(folder.path(), {.track_name = "1", .picture_time_s = {0, 0.5, 1}}),
+               vo::Error);
 }
 
 }  // namespace

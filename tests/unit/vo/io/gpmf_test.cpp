@@ -65,6 +65,22 @@ TEST(Gpmf, OneScaleMayBeForAll) {
   EXPECT_DOUBLE_EQ(positions->at(0).longitude_deg, 3);
 }
 
+TEST(Gpmf, ReadsAccelerations) {
+  const auto read = vo::gpmf_accelerations(bytes(accl_piece({{0.5, -9.75, 2}, {0, 0, -1.25}})));
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->size(), 2U);
+  EXPECT_NEAR((*read)[0][1], -9.75, 1 / 418.);
+  EXPECT_NEAR((*read)[0][2], 2, 1 / 418.);
+  EXPECT_NEAR((*read)[1][2], -1.25, 1 / 418.);
+  EXPECT_TRUE(vo::gpmf_accelerations(bytes(gps5_piece({})))->size() == 3) << "the stream of something else";
+  const std::string values(12, '\1');
+  EXPECT_FALSE(vo::gpmf_accelerations(bytes(gpmf_entry("ACCL", 's', 6, values)))) << "no scale";
+  EXPECT_FALSE(vo::gpmf_accelerations(
+      bytes(gpmf_entry("SCAL", 's', 2, big_endian(0, 2)) + gpmf_entry("ACCL", 's', 6, values))));
+  EXPECT_FALSE(vo::gpmf_accelerations(
+      bytes(gpmf_entry("SCAL", 's', 2, big_endian(1, 2)) + gpmf_entry("ACCL", 's', 4, values))));
+}
+
 TEST(Gpmf, NothingAndPaddingHoldNone) {
   EXPECT_TRUE(vo::gpmf_positions({})->empty());
   EXPECT_TRUE(vo::gpmf_positions(bytes(std::string(16, '\0')))->empty());
