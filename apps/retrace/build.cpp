@@ -80,7 +80,7 @@ void build(BuildOptions& options) {
 
   vo::Walk walk;
   {
-    ProgressBar bar;
+    ProgressBar bar(options.walk.front());
     walk = place::read(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);

@@ -1,6 +1,7 @@
 #include "command_line.hpp"
 
 #include "command.hpp"
+#include "interruption.hpp"
 #include "shell_documents.hpp"
 
 #include <algorithm>
@@ -200,6 +201,7 @@ extern "C" int retrace_run(int argc, char** argv) {
   cv::setNumThreads(1);  // frames are spread over threads, so work within a frame is not
   spdlog::set_default_logger(spdlog::stderr_logger_st("retrace"));
   spdlog::set_pattern("retrace: %l: %v");
+  end_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then fails a write, with its reason, and kills nothing
   try {
     return run(argc, argv);

@@ -37,8 +37,10 @@ void compare(const CompareOptions& options) {
   prepare_run_directory(folder, {"comparison.json", "report.html"}, options.common.force);
   const Comparison comparison = compare_runs(options.folders, options.names, options.bootstrap);
   const ordered_json json = comparison_json(comparison);
-  vo::write_file(folder / "comparison.json", json.dump(2) + "\n");
-  vo::write_file(folder / "report.html", compare_report(comparison));
+  StagedFiles staged(folder);
+  vo::write_file(staged.path() / "comparison.json", json.dump(2) + "\n");
+  vo::write_file(staged.path() / "report.html", compare_report(comparison));
+  staged.commit();
   if (options.common.json) {
     fmt::print("{}\n", json.dump(2));
     return;

@@ -63,7 +63,7 @@ void describe(const DescribeOptions& options) {
       given, {.purpose = place::Purpose::kRoute, .route = options.route.empty() ? nullptr : &route.settings});
   vo::Walk walk;
   {
-    ProgressBar bar;
+    ProgressBar bar(options.walk.front());
     walk = place::read(options.walk, settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);

@@ -66,7 +66,7 @@ void doctor(const DoctorOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   place::RecordingFacts facts;
   {
-    ProgressBar bar;
+    ProgressBar bar(options.walk.front());
     facts = place::examine_recording(options.walk, options.settings, bar.callback());
   }
   const std::vector<place::Finding> findings = place::judge_recording(facts);

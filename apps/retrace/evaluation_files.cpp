@@ -159,10 +159,12 @@ std::pair<place::RunEvaluation, ordered_json> evaluate_folder(const fs::path& fo
   }
   ordered_json metrics = metrics_json(truth);
   if (!options.query_truth.empty()) metrics.update(trajectory_metrics(folder, options.query_truth));
-  vo::write_file(folder / "metrics.json", metrics.dump(2) + "\n");
-  vo::write_file(folder / "pr.csv", vo::to_csv<OperatingPoint>(truth.evaluation.curve, kCurveColumns));
-  vo::write_file(folder / "errors.csv", errors_csv(matches, truth));
-  vo::write_file(folder / "report.html", run_report(folder, read_run_data(folder), &truth));
+  StagedFiles staged(folder);
+  vo::write_file(staged.path() / "metrics.json", metrics.dump(2) + "\n");
+  vo::write_file(staged.path() / "pr.csv", vo::to_csv<OperatingPoint>(truth.evaluation.curve, kCurveColumns));
+  vo::write_file(staged.path() / "errors.csv", errors_csv(matches, truth));
+  vo::write_file(staged.path() / "report.html", run_report(folder, read_run_data(folder), &truth));
+  staged.commit();
   return {std::move(truth), std::move(metrics)};
 }
 

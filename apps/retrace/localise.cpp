@@ -60,7 +60,7 @@ void localise(const LocaliseOptions& options) {
 
   vo::Walk walk;
   {
-    ProgressBar bar;
+    ProgressBar bar(options.walk.front());
     walk = place::read(options.walk, route, options.settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);

@@ -1,6 +1,7 @@
 #include "measured_odometry.hpp"
 
 #include "report/odometry_report.hpp"
+#include "run_directory.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,7 +29,8 @@ OdometryMeasured measure_odometry(const std::filesystem::path& folder, const Wal
                     fmt::format("and the trajectory share {:.1f} m", measured.evaluation.distance_m),
                     fmt::format("{} m or more", evaluation.at_m.front()));
   }
-  vo::write_file(folder / "odometry_metrics.json",
+  StagedFiles staged(folder);
+  vo::write_file(staged.path() / "odometry_metrics.json",
                  odometry_metrics_json(measured, evaluation).dump(2) + "\n");
   const OdometryTruth for_report{.poses = truth.walk.poses,
                                  .map_path = truth.map_path,
@@ -36,7 +38,8 @@ OdometryMeasured measure_odometry(const std::filesystem::path& folder, const Wal
                                  .map_scale_m_per_px = known.map_scale_m_per_px.value_or(0),
                                  .steps = truth.steps ? std::to_string(*truth.steps) : "",
                                  .evaluation = measured.evaluation};
-  vo::write_file(folder / "report.html", odometry_report(folder, &for_report));
+  vo::write_file(staged.path() / "report.html", odometry_report(folder, &for_report));
+  staged.commit();
   return measured;
 }
 

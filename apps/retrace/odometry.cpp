@@ -72,7 +72,7 @@ void odometry(const OdometryOptions& options) {
   stages.walk.visual_odometry = stages.walk.visual_odometry || options.visual_odometry;
   vo::Walk walk;
   {
-    ProgressBar bar;
+    ProgressBar bar(options.walk.front());
     walk = vo::read_walk(options.walk, stages.walk, bar.callback());
   }
   if (options.walk_length_m) {

@@ -1,6 +1,7 @@
 #include "odometry_files.hpp"
 
 #include "report/odometry_report.hpp"
+#include "run_directory.hpp"
 #include "settings_file.hpp"
 #include "visual_odometry.hpp"
 
@@ -212,27 +213,30 @@ const std::vector<std::string> kOdometryFiles{"frames.csv",     "steps.csv",    
 
 WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, const vo::WalkMotion& walked,
                                const place::Settings& settings, const OdometryExtras& extras) {
+  StagedFiles staged(folder);
+  const fs::path& files = staged.path();
   ordered_json json = summary(walk, walked, settings.step_length.value_or(0));
   vo::Trajectory trajectory = walked.trajectory;
   if (extras.imu_steps) json["imu_steps"] = *extras.imu_steps;
   if (extras.loops != nullptr) {
     json["loops"] = {{"keyframes", extras.loops->loops}, {"believed", extras.loops->believed}};
     trajectory = extras.loops->trajectory;
-    vo::write_file(folder / "trajectory_odometry.tum",
+    vo::write_file(files / "trajectory_odometry.tum",
                    vo::to_tum(walked.trajectory, "the same before loops were closed"));
   }
-  vo::write_file(folder / "frames.csv", frames_csv(walk, walked));
-  vo::write_file(folder / "steps.csv", steps_csv(walked));
-  vo::write_file(folder / "activity.csv",
+  vo::write_file(files / "frames.csv", frames_csv(walk, walked));
+  vo::write_file(files / "steps.csv", steps_csv(walked));
+  vo::write_file(files / "activity.csv",
                  vo::to_csv<vo::ActivitySecond>(walked.pedestrian->activity, kActivityColumns));
-  vo::write_file(folder / "trajectory.tum",
+  vo::write_file(files / "trajectory.tum",
                  vo::to_tum(trajectory, fmt::format("pose of each frame since the first, {} and radians",
                                                     walked.metric ? "metres" : "units of no known length")));
-  if (extras.visual_odometry) write_visual_odometry(walk, folder);
+  if (extras.visual_odometry) write_visual_odometry(walk, files);
   std::string text = json.dump(2) + "\n";
-  vo::write_file(folder / "summary.json", text);
-  vo::write_file(folder / "config.toml", to_toml(settings));
-  vo::write_file(folder / "report.html", odometry_report(folder));
+  vo::write_file(files / "summary.json", text);
+  vo::write_file(files / "config.toml", to_toml(settings));
+  vo::write_file(files / "report.html", odometry_report(files));
+  staged.commit(kOdometryFiles);
   return {json["distance"].get<double>(), json["unit"].get<std::string>(), std::move(text)};
 }
 

@@ -1,17 +1,16 @@
 #include "progress_bar.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
+#include <vo/io/frame_source.hpp>
+
 namespace retrace {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
 
 std::string duration(double seconds) {
   const auto whole = static_cast<std::int64_t>(seconds + 0.5);
@@ -20,13 +19,12 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar()
+ProgressBar::ProgressBar(std::string_view walk)
     : start_(std::chrono::steady_clock::now()), shown_(start_), terminal_(::isatty(STDERR_FILENO) == 1) {
-  std::signal(SIGINT, [](int) { interrupted = 1; });
+  if (vo::is_live(walk)) recording_.emplace();
 }
 
 ProgressBar::~ProgressBar() {
-  std::signal(SIGINT, SIG_DFL);
   if (drawn_) fmt::print(stderr, "\r\033[K");
 }
 
@@ -42,7 +40,7 @@ bool ProgressBar::show(const vo::Progress& progress) {
     start_ = now;
   }
   const auto interval = terminal_ ? milliseconds(100) : milliseconds(10000);
-  if (now - shown_ < interval) return interrupted == 0;
+  if (now - shown_ < interval) return !(recording_ && Recording::ended());
   shown_ = now;
 
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
@@ -68,7 +66,7 @@ bool ProgressBar::show(const vo::Progress& progress) {
     fmt::print(stderr, "{}\n", line);
   }
   std::fflush(stderr);
-  return interrupted == 0;
+  return !(recording_ && Recording::ended());
 }
 
 }  // namespace retrace

@@ -1,18 +1,24 @@
 #pragma once
 
+#include "interruption.hpp"
+
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <vo/base/progress.hpp>
 
 namespace retrace {
 
 /// Shows progress on stderr: a bar with rate and time left on a terminal, otherwise a line every ten seconds.
-/// Clears its bar when it goes out of scope. Ctrl-C stops the stage, whose results so far are kept.
+/// Clears its bar when it goes out of scope. Where a walk goes on until it is ended, Ctrl-C ends the stage,
+/// whose results so far are kept.
 class ProgressBar {
  public:
-  ProgressBar();
+  /// `walk`: what is read, if a walk is (`vo::is_live`).
+  explicit ProgressBar(std::string_view walk = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -28,6 +34,7 @@ class ProgressBar {
   std::string stage_;
   bool terminal_;
   bool drawn_ = false;
+  std::optional<Recording> recording_;
 };
 
 }  // namespace retrace

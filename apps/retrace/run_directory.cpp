@@ -1,9 +1,11 @@
 #include "run_directory.hpp"
 
 #include <cerrno>
+#include <deque>
 #include <string>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,18 +31,44 @@ void check_writable_folder(const fs::path& folder) {
 }  // namespace
 
 void prepare_run_directory(const fs::path& folder, const std::vector<std::string>& files, bool force) {
+  static std::deque<vo::PartialPath> created;  // those that stay empty go when the program ends
   std::error_code error;
-  fs::create_directories(folder, error);
+  const bool is_new = fs::create_directories(folder, error);
   if (error && !fs::exists(folder)) {
     throw vo::Error(folder.string(), fmt::format("cannot be created: {}", error.message()),
                     "a writable folder");
   }
+  if (is_new)
+    created.emplace_back(folder.has_filename() ? folder : folder.parent_path(), vo::Removal::kIfEmpty);
   check_writable_folder(folder);
   if (force) return;
   for (const std::string& file : files) {
     const fs::path path = folder / file;
     if (fs::exists(path))
       throw vo::Error(path.string(), "already exists", "another folder, or --force to overwrite");
+  }
+}
+
+StagedFiles::StagedFiles(fs::path folder)
+    : folder_(std::move(folder)), staged_(folder_ / fmt::format(".partial-{}", ::getpid())) {
+  std::error_code error;
+  fs::remove_all(staged_.path(), error);  // of a killed process with the same number
+  if (!fs::create_directory(staged_.path(), error)) {
+    throw vo::Error(folder_.string(), fmt::format("cannot be written to: {}", error.message()),
+                    "a writable folder with room");
+  }
+}
+
+void StagedFiles::commit(const std::vector<std::string>& stale) {
+  for (const std::string& name : stale) {
+    std::error_code ignored;
+    if (!fs::exists(staged_.path() / name, ignored)) fs::remove(folder_ / name, ignored);
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(staged_.path())) {
+    const fs::path to = folder_ / entry.path().filename();
+    std::error_code error;
+    fs::rename(entry.path(), to, error);
+    if (error) throw vo::Error(to.string(), fmt::format("cannot be written: {}", error.message()));
   }
 }
 

@@ -4,13 +4,35 @@
 #include <string>
 #include <vector>
 
+#include <vo/io/partial_path.hpp>
+
 namespace retrace {
 
-/// Makes sure that results can be written to `folder`: creates it (and its parents) if needed, and refuses,
+/// Makes sure that results can be written to `folder`: creates it (and its parents) if needed, to be removed
+/// again at the end of the program if nothing is written to it, and refuses,
 /// with one clear line, a path that is not a folder, one that cannot be written to, or one that already holds
 /// any of `files` unless `force`. Called before any work is done.
 void prepare_run_directory(const std::filesystem::path& folder, const std::vector<std::string>& files,
                            bool force);
+
+/// The files of a run, all of them or none: they are written to a hidden folder within the run's, and moved
+/// from there when all are whole. Without `commit` they are removed, and what was in the run's folder stays.
+class StagedFiles {
+ public:
+  /// Throws `vo::Error` naming the folder if nothing can be written to it.
+  explicit StagedFiles(std::filesystem::path folder);
+
+  /// Where to write.
+  [[nodiscard]] const std::filesystem::path& path() const { return staged_.path(); }
+
+  /// Moves the files into the run's folder, over what is there. Of `stale`, names of files that this run may
+  /// have and an earlier one had, those not written are removed. Throws `vo::Error` naming the file.
+  void commit(const std::vector<std::string>& stale = {});
+
+ private:
+  std::filesystem::path folder_;
+  vo::PartialPath staged_;
+};
 
 /// Makes sure that the file can be written: its folder exists and is writable. Called before any work is
 /// done.

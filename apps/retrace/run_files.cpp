@@ -4,6 +4,7 @@
 #include "report/matrix_picture.hpp"
 #include "report/run_data.hpp"
 #include "report/run_report.hpp"
+#include "run_directory.hpp"
 #include "settings_file.hpp"
 
 #include <algorithm>
@@ -215,42 +216,13 @@ void write_matrices(const fs::path& folder, const std::vector<KeptMatrix>& matri
   }
 }
 
-}  // namespace
+const std::vector<std::string> kTrajectoryFiles{"trajectory.tum", "trajectory_odometry.tum", "trajectory.csv",
+                                                "trajectory.geojson", "trajectory.gpx"};
 
-const std::vector<std::string> kRunFiles{"matches.csv",    "trajectory.tum", "trajectory_odometry.tum",
-                                         "trajectory.csv", "summary.json",   "report.html",
-                                         kRunDataFile,     "config.toml"};
-
-WrittenRun localise_into(const fs::path& folder, const place::Route& route, const std::string& route_path,
-                         const vo::Walk& walk, const place::Settings& settings, bool whole_matrices) {
-  MatrixKeeper keeper(route, whole_matrices);
-  place::Run run = place::localise(route, walk, settings, std::ref(keeper));
-  for (const std::string& warning : run.sampled.warnings) spdlog::warn("{}", warning);
-  for (const std::string& warning : run.warnings) spdlog::warn("{}", warning);
-  if (run.settings.accept_probability && run.probability_source == place::ProbabilitySource::kNone)
-    spdlog::warn("no probabilities: fewer than {} matches to learn from; accepted by their score",
-                 place::kFewestScores);
-  if (!run.drift.why_not.empty() && place::has_poses(route) && run.settings.correct_drift.value_or(false))
-    spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
-                 run.drift.why_not);
-  std::string text = summary(route, route_path, walk, run).dump(2) + "\n";
-  vo::write_file(folder / "matches.csv", place::to_csv(run.matches));
-  write_trajectory(run.drift, route, run.matches, folder, walk.start_utc_s);
-  vo::write_file(folder / "summary.json", text);
-  vo::write_file(folder / "config.toml", to_toml(run.settings));
-  const ordered_json data = run_data(route, walk, run, keeper.matrices());
-  vo::write_file(folder / kRunDataFile, data.dump());
-  vo::write_file(folder / "report.html", run_report(folder, data));
-  write_matrices(folder, keeper.matrices(), route, run.matches, whole_matrices);
-  return {std::move(run), keeper.matrices(), std::move(text)};
-}
-
-void write_trajectory(const place::QueryTrajectory& t, const place::Route& route,
-                      const std::vector<place::Match>& matches, const fs::path& folder,
-                      std::optional<double> start_utc_s) {
-  for (const char* name :
-       {"trajectory_odometry.tum", "trajectory.csv", "trajectory.geojson", "trajectory.gpx"})
-    fs::remove(folder / name);
+/// The trajectory's files, into `folder`.
+void put_trajectory(const place::QueryTrajectory& t, const place::Route& route,
+                    const std::vector<place::Match>& matches, const fs::path& folder,
+                    std::optional<double> start_utc_s) {
   if (!t.why_not.empty()) {
     const std::string comment =
         t.fixes.empty() ? fmt::format("no pose: {}", t.why_not)
@@ -271,6 +243,49 @@ void write_trajectory(const place::QueryTrajectory& t, const place::Route& route
   SurePoses sure{.poses = corrected, .probability = {}};
   for (const place::Match& match : matches) sure.probability.push_back(match.probability);
   write_geographic(folder, sure, route, start_utc_s);
+}
+
+}  // namespace
+
+const std::vector<std::string> kRunFiles{"matches.csv",    "trajectory.tum", "trajectory_odometry.tum",
+                                         "trajectory.csv", "summary.json",   "report.html",
+                                         kRunDataFile,     "config.toml"};
+
+WrittenRun localise_into(const fs::path& folder, const place::Route& route, const std::string& route_path,
+                         const vo::Walk& walk, const place::Settings& settings, bool whole_matrices) {
+  MatrixKeeper keeper(route, whole_matrices);
+  place::Run run = place::localise(route, walk, settings, std::ref(keeper));
+  for (const std::string& warning : run.sampled.warnings) spdlog::warn("{}", warning);
+  for (const std::string& warning : run.warnings) spdlog::warn("{}", warning);
+  if (run.settings.accept_probability && run.probability_source == place::ProbabilitySource::kNone)
+    spdlog::warn("no probabilities: fewer than {} matches to learn from; accepted by their score",
+                 place::kFewestScores);
+  if (!run.drift.why_not.empty() && place::has_poses(route) && run.settings.correct_drift.value_or(false))
+    spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
+                 run.drift.why_not);
+  std::string text = summary(route, route_path, walk, run).dump(2) + "\n";
+  StagedFiles staged(folder);
+  vo::write_file(staged.path() / "matches.csv", place::to_csv(run.matches));
+  put_trajectory(run.drift, route, run.matches, staged.path(), walk.start_utc_s);
+  vo::write_file(staged.path() / "summary.json", text);
+  vo::write_file(staged.path() / "config.toml", to_toml(run.settings));
+  const ordered_json data = run_data(route, walk, run, keeper.matrices());
+  vo::write_file(staged.path() / kRunDataFile, data.dump());
+  vo::write_file(staged.path() / "report.html", run_report(staged.path(), data));
+  write_matrices(staged.path(), keeper.matrices(), route, run.matches, whole_matrices);
+  std::vector<std::string> stale{"metrics.json", "pr.csv", "errors.csv"};  // of other matches
+  stale.insert(stale.end(), kRunFiles.begin(), kRunFiles.end());
+  stale.insert(stale.end(), kTrajectoryFiles.begin(), kTrajectoryFiles.end());
+  staged.commit(stale);
+  return {std::move(run), keeper.matrices(), std::move(text)};
+}
+
+void write_trajectory(const place::QueryTrajectory& t, const place::Route& route,
+                      const std::vector<place::Match>& matches, const fs::path& folder,
+                      std::optional<double> start_utc_s) {
+  StagedFiles staged(folder);
+  put_trajectory(t, route, matches, staged.path(), start_utc_s);
+  staged.commit(kTrajectoryFiles);
 }
 
 }  // namespace retrace

@@ -3,6 +3,7 @@
 #include "place/version.hpp"
 #include "route/descriptor_rows.hpp"
 #include "route/optional_tables.hpp"
+#include "route/row_digests.hpp"
 #include "route/sqlite.hpp"
 
 #include <algorithm>
@@ -265,6 +266,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
     damaged(shown, "it is cut short");
   }
 
+  row_digests::check(database, shown, options.previews);
   Statement row = database.prepare(
       "SELECT software_version, unit, metric, traverses, latitude_deg, longitude_deg FROM route");
   if (!row.step()) damaged(shown, "the route's row is missing");
@@ -304,9 +306,8 @@ bool looks_like_route(const std::filesystem::path& path) {
 void write_route(const std::filesystem::path& path, const Route& route) {
   check(route);
   if (std::filesystem::is_directory(path)) throw vo::Error(path.string(), "is a folder", "a file to write");
+  vo::remove_abandoned(path);
   vo::AtomicFile file(path);
-  std::error_code ignored;
-  std::filesystem::remove(file.temporary(), ignored);  // of a killed process with the same number
   {
     const Database database(file.temporary(), Database::Mode::kCreate, path.string());
     // No journal: nobody reads this file before the rename, and a broken one is discarded whole. Pages of 16
@@ -338,6 +339,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
     for (std::size_t i = 0; i < route.traverses.size(); ++i) {
       write_traverse(database, static_cast<std::int64_t>(i) + 1, route.traverses[i]);
     }
+    row_digests::write(database);
     database.run("COMMIT");
   }
   sqlite::fold_changes(path);

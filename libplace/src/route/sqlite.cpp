@@ -1,6 +1,9 @@
 #include "route/sqlite.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <cstring>
 #include <system_error>
 #include <unistd.h>
 
@@ -115,6 +118,34 @@ std::span<const std::uint8_t> Statement::blob() {
   const int column = next_column_++;
   const auto* value = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
   return {value, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+std::uint64_t Statement::digest(std::uint64_t before) const {
+  constexpr std::uint64_t kPrime = 0x100000001b3U;  // FNV's, on words instead of bytes
+  std::uint64_t digest = before;
+  const auto mix = [&](std::uint64_t word) {
+    digest = (digest ^ word) * kPrime;
+    digest ^= digest >> 32U;  // so that the high bits count for the low ones
+  };
+  for (int column = 0; column < sqlite3_column_count(statement_.get()); ++column) {
+    const int type = sqlite3_column_type(statement_.get(), column);
+    mix(static_cast<std::uint64_t>(type));
+    if (type == SQLITE_INTEGER) {
+      mix(std::bit_cast<std::uint64_t>(std::int64_t{sqlite3_column_int64(statement_.get(), column)}));
+    } else if (type == SQLITE_FLOAT) {
+      mix(std::bit_cast<std::uint64_t>(sqlite3_column_double(statement_.get(), column)));
+    } else if (type != SQLITE_NULL) {
+      const void* bytes = sqlite3_column_blob(statement_.get(), column);
+      const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
+      mix(size);
+      for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, static_cast<const char*>(bytes) + i, std::min(sizeof word, size - i));
+        mix(word);
+      }
+    }
+  }
+  return digest;
 }
 
 void Database::Close::operator()(sqlite3* database) const {

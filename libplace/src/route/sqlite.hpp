@@ -38,6 +38,9 @@ class Statement {
   /// Valid until the next step.
   std::span<const std::uint8_t> blob();
 
+  /// A digest of the row's values and their types, continued from that of the rows before it. O(bytes).
+  [[nodiscard]] std::uint64_t digest(std::uint64_t before) const;
+
  private:
   void check(int code);
 

@@ -3,7 +3,10 @@
 #include "vo/base/error.hpp"
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <fcntl.h>
+#include <string>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -39,23 +42,35 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/// The beginning of a temporary's name; the process id follows.
+std::string beginning(const fs::path& path) {
+  return fmt::format(".{}.partial-", path.filename().string());
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path path)
     : path_(std::move(path)),
-      temporary_(folder_of(path_) / fmt::format(".{}.partial-{}", path_.filename().string(), ::getpid())) {}
+      temporary_(folder_of(path_) / (beginning(path_) + std::to_string(::getpid()))) {}
 
-AtomicFile::~AtomicFile() {
-  if (committed_) return;
+void remove_abandoned(const fs::path& path) {
+  const std::string begin = beginning(path);
   std::error_code ignored;
-  fs::remove(temporary_, ignored);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(path), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(begin)) continue;
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(name.data() + begin.size(), name.data() + name.size(), process);
+    if (error != std::errc() || end != name.data() + name.size() || process <= 0) continue;
+    if (process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH))
+      fs::remove(entry.path(), ignored);
+  }
 }
 
 void AtomicFile::commit() {
-  const Descriptor file(::open(temporary_.c_str(), O_RDWR | O_CLOEXEC));
+  const Descriptor file(::open(temporary().c_str(), O_RDWR | O_CLOEXEC));
   if (file.get() < 0 || ::fsync(file.get()) != 0) fail(path_, errno);
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
-  committed_ = true;
+  if (const int error = temporary_.rename_to(path_); error != 0) fail(path_, error);
   // The rename itself becomes durable with the folder; a folder that cannot be flushed is no reason to fail.
   const Descriptor folder(::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder.get() >= 0) ::fsync(folder.get());

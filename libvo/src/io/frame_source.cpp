@@ -23,11 +23,6 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-bool is_live(std::string_view walk) {
-  return walk == "-" || walk.starts_with("camera:") || walk.starts_with("rtsp://") ||
-         walk.starts_with("rtsps://");
-}
-
 std::optional<int> camera_number(std::string_view walk) {
   constexpr std::string_view kPrefix = "camera:";
   if (!walk.starts_with(kPrefix)) return std::nullopt;
@@ -71,6 +66,11 @@ std::unique_ptr<SampledSource> open_as_it_is(const std::string& walk, const Fram
 }
 
 }  // namespace
+
+bool is_live(std::string_view walk) {
+  return walk == "-" || walk.starts_with("camera:") || walk.starts_with("rtsp://") ||
+         walk.starts_with("rtsps://");
+}
 
 bool natural_less(std::string_view a, std::string_view b) {
   const std::string_view whole_a = a;

@@ -16,9 +16,10 @@ struct RouteReadOptions {
 };
 
 /// Reads a route database: one SQLite file, opened read-only. Descriptors are stored in chunks of 256, each
-/// with a checksum. Throws `vo::Error` naming the file if it does not exist, is not a route database, was
-/// written by another version, or is damaged (a broken page, a missing row, a chunk of descriptors that does
-/// not match its checksum). O(file).
+/// with a checksum, and there is a digest of the rows of every table, so that any flipped bit is found or
+/// does no harm. Throws `vo::Error` naming the file if it does not exist, is not a route database, was
+/// written by another version, or is damaged (a broken page, rows or chunks that do not match their digest).
+/// O(file).
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options = {});
 
 /// True if the file is a SQLite database, as routes are, by its first bytes. Nothing is thrown.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "vo/io/partial_path.hpp"
+
 #include <filesystem>
 #include <string_view>
 
@@ -12,21 +14,21 @@ class AtomicFile {
  public:
   /// Does not open anything yet. The temporary's name holds the process id, so two writers do not mix.
   explicit AtomicFile(std::filesystem::path path);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
 
   /// Where to write.
-  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_.path(); }
 
   /// Flushes and renames. Throws `vo::Error` naming the path and the system's reason.
   void commit();
 
  private:
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
-  bool committed_ = false;
+  PartialPath temporary_;
 };
+
+/// Removes what processes that were killed while they wrote `path` left beside it: temporaries of processes
+/// that no longer run. For one writer at a time, as under a lock. O(files in the folder).
+void remove_abandoned(const std::filesystem::path& path);
 
 /// Writes `content` to `path`, whole or not at all, over what is there. Throws `vo::Error` naming the path
 /// and the system's reason (no such folder, read-only, disk full).

@@ -57,6 +57,9 @@ class FrameSource {
   [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
 };
 
+/// True for a walk that goes on until it is ended: a camera, an address, standard input.
+bool is_live(std::string_view walk);
+
 /// Opens a walk:
 ///  - a video file, any that FFmpeg reads. Times are the container's presentation times, so a variable
 ///    frame rate comes out right; frames without a usable time follow at the nominal rate, with a warning.
