@@ -78,8 +78,12 @@ void describe(const DescribeOptions& options) {
 
   std::string csv = "frame,time_s\n";
   for (const std::size_t frame : sampled.frames) csv += fmt::format("{},{:.6f}\n", frame, walk.time_s[frame]);
-  const std::size_t width = write(options.output, sampled.descriptors.front());
-  vo::write_file(beside, csv);
+  const std::filesystem::path output(options.output);
+  StagedFiles staged(output.has_parent_path() ? output.parent_path() : ".");
+  const std::filesystem::path file = staged.path() / output.filename();
+  const std::size_t width = write(file.string(), sampled.descriptors.front());
+  vo::write_file(file.string() + ".csv", csv);
+  staged.commit();
   if (options.common.json) {
     const nlohmann::ordered_json json{{"descriptors", options.output},
                                       {"frames", beside},

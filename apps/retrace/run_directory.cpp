@@ -11,6 +11,7 @@
 
 #include <place/route/route_database.hpp>
 #include <vo/base/error.hpp>
+#include <vo/io/atomic_file.hpp>
 
 namespace retrace {
 namespace {
@@ -50,9 +51,9 @@ void prepare_run_directory(const fs::path& folder, const std::vector<std::string
 }
 
 StagedFiles::StagedFiles(fs::path folder)
-    : folder_(std::move(folder)), staged_(folder_ / fmt::format(".partial-{}", ::getpid())) {
+    : folder_(std::move(folder)), staged_(vo::partial_name(folder_ / "run")) {
+  vo::remove_abandoned(folder_ / "run");
   std::error_code error;
-  fs::remove_all(staged_.path(), error);  // of a killed process with the same number
   if (!fs::create_directory(staged_.path(), error)) {
     throw vo::Error(folder_.string(), fmt::format("cannot be written to: {}", error.message()),
                     "a writable folder with room");
@@ -60,16 +61,11 @@ StagedFiles::StagedFiles(fs::path folder)
 }
 
 void StagedFiles::commit(const std::vector<std::string>& stale) {
+  std::error_code ignored;
   for (const std::string& name : stale) {
-    std::error_code ignored;
     if (!fs::exists(staged_.path() / name, ignored)) fs::remove(folder_ / name, ignored);
   }
-  for (const fs::directory_entry& entry : fs::directory_iterator(staged_.path())) {
-    const fs::path to = folder_ / entry.path().filename();
-    std::error_code error;
-    fs::rename(entry.path(), to, error);
-    if (error) throw vo::Error(to.string(), fmt::format("cannot be written: {}", error.message()));
-  }
+  staged_.release_into(folder_);
 }
 
 void check_writable(const fs::path& file) {

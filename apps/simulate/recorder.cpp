@@ -10,6 +10,7 @@
 
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
+#include <vo/io/partial_path.hpp>
 
 namespace simulate {
 namespace {
@@ -28,25 +29,19 @@ class PendingFile {
       throw vo::Error(path_.string(), "exists already", "a new folder, or --force to overwrite");
     }
   }
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-  ~PendingFile() {
-    std::error_code ignored;
-    fs::remove(temporary_, ignored);
-  }
 
-  [[nodiscard]] std::string temporary() const { return temporary_.string(); }
-  void commit() const {
-    std::error_code failure;
-    fs::rename(temporary_, path_, failure);
-    if (failure) throw vo::Error(path_.string(), "cannot be written: " + failure.message());
+  [[nodiscard]] std::string temporary() const { return temporary_.path().string(); }
+  void commit() {
+    if (const int error = temporary_.rename_to(path_); error != 0)
+      throw vo::Error(path_.string(), "cannot be written: " + std::generic_category().message(error));
   }
   [[nodiscard]] vo::Error failure() const {
     return {path_.string(), "cannot be written", "a folder with room for it"};
   }
 
  private:
-  fs::path path_, temporary_;
+  fs::path path_;
+  vo::PartialPath temporary_;
 };
 
 void write_truth(const WalkSimulator& walk, int frames, const PendingFile& file) {
@@ -70,8 +65,8 @@ Recording simulate_walk(const Options& options, const fs::path& directory, bool 
   fs::create_directories(directory, failure);
   if (failure)
     throw vo::Error(directory.string(), "cannot be made: " + failure.message(), "a folder one may write to");
-  const PendingFile video(directory / "walk.mp4", overwrite);
-  const PendingFile truth(directory / "truth.csv", overwrite);
+  PendingFile video(directory / "walk.mp4", overwrite);
+  PendingFile truth(directory / "truth.csv", overwrite);
 
   const WalkSimulator walk(options);
   cv::VideoWriter writer(video.temporary(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'),

@@ -12,6 +12,7 @@
 
 #include <vo/base/error.hpp>
 #include <vo/io/atomic_file.hpp>
+#include <vo/io/partial_path.hpp>
 
 namespace place {
 namespace {
@@ -139,20 +140,18 @@ void write_route_folder(const fs::path& folder, const Route& route) {
   std::error_code error;
   if (fs::exists(path, error) && !(fs::is_directory(path, error) && fs::is_empty(path, error)))
     throw vo::Error(path.string(), "is there already", "a new folder");
-  const fs::path partial =
-      path.parent_path() / fmt::format(".{}.partial-{}", path.filename().string(), ::getpid());
-  fs::create_directories(partial, error);
+  vo::remove_abandoned(path);
+  vo::PartialPath partial(vo::partial_name(path));
+  fs::create_directories(partial.path(), error);
   if (error) throw vo::Error(path.string(), "cannot be made: " + error.message(), "a writable folder");
   try {
-    write_all(partial, route);
-    fs::rename(partial, path);
+    write_all(partial.path(), route);
   } catch (const fs::filesystem_error& failed) {
-    fs::remove_all(partial, error);
     throw vo::Error(path.string(), "cannot be written: " + failed.code().message(), "a writable folder");
-  } catch (...) {
-    fs::remove_all(partial, error);
-    throw;
   }
+  if (const int failed = partial.rename_to(path); failed != 0)
+    throw vo::Error(path.string(), "cannot be written: " + std::generic_category().message(failed),
+                    "a writable folder");
 }
 
 }  // namespace place

@@ -49,9 +49,11 @@ std::string beginning(const fs::path& path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path path)
-    : path_(std::move(path)),
-      temporary_(folder_of(path_) / (beginning(path_) + std::to_string(::getpid()))) {}
+fs::path partial_name(const fs::path& path) {
+  return folder_of(path) / (beginning(path) + std::to_string(::getpid()));
+}
+
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), temporary_(partial_name(path_)) {}
 
 void remove_abandoned(const fs::path& path) {
   const std::string begin = beginning(path);
@@ -63,7 +65,7 @@ void remove_abandoned(const fs::path& path) {
     const auto [end, error] = std::from_chars(name.data() + begin.size(), name.data() + name.size(), process);
     if (error != std::errc() || end != name.data() + name.size() || process <= 0) continue;
     if (process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH))
-      fs::remove(entry.path(), ignored);
+      fs::remove_all(entry.path(), ignored);
   }
 }
 

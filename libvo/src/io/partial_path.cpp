@@ -1,5 +1,8 @@
 #include "vo/io/partial_path.hpp"
 
+#include "vo/base/error.hpp"
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <mutex>
@@ -60,6 +63,18 @@ int PartialPath::rename_to(const fs::path& name) {
   if (std::rename(path_.c_str(), name.c_str()) != 0) return errno;
   forget(registry().entries, path_);
   return 0;
+}
+
+void PartialPath::release_into(const fs::path& folder) {
+  const std::scoped_lock lock(registry().mutex);
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_)) files.push_back(entry.path());
+  std::ranges::sort(files);
+  for (const fs::path& file : files) {
+    const fs::path to = folder / file.filename();
+    if (std::rename(file.c_str(), to.c_str()) != 0)
+      throw Error(to.string(), "cannot be written: " + std::generic_category().message(errno));
+  }
 }
 
 void discard_partial_paths() {

@@ -26,7 +26,11 @@ class AtomicFile {
   PartialPath temporary_;
 };
 
-/// Removes what processes that were killed while they wrote `path` left beside it: temporaries of processes
+/// The name under which this process writes a file or folder until it is whole: hidden, beside its own, with
+/// the process id, so that two writers do not mix.
+std::filesystem::path partial_name(const std::filesystem::path& path);
+
+/// Removes what processes that were killed while they wrote `path` left beside it: partial names of processes
 /// that no longer run. For one writer at a time, as under a lock. O(files in the folder).
 void remove_abandoned(const std::filesystem::path& path);
 

@@ -26,6 +26,10 @@ class PartialPath {
   /// the path is still partial.
   int rename_to(const std::filesystem::path& name);
 
+  /// For a folder: moves what it holds into another folder, over what is there, all of it before the program
+  /// can be told to end. Throws `vo::Error` naming the file that cannot be moved.
+  void release_into(const std::filesystem::path& folder);
+
  private:
   std::filesystem::path path_;
 };
