@@ -33,7 +33,8 @@ TEST(ImuSteps, AreThoseOfTheWalksOwnVideo) {
   vo::Walk walk;
   walk.source = (folder / "walk.mp4").string();
   EXPECT_NEAR(static_cast<double>(retrace::imu_steps("video", walk)), 2 * kSeconds, 1);
-  EXPECT_THROW_WITH(retrace::imu_steps("phone.csv", walk), vo::Error, "--imu: is 'phone.csv'; expected video");
+  EXPECT_THROW_WITH(retrace::imu_steps("phone.csv", walk), vo::Error,
+                    "--imu: is 'phone.csv'; expected video");
   walk.source = folder.path().string();
   EXPECT_THROW_WITH(retrace::imu_steps("video", walk), vo::Error, "expected a walk of one video file");
 }
