@@ -28,6 +28,7 @@
 
 #include <place/version.hpp>
 #include <vo/base/error.hpp>
+#include <vo/io/partial_path.hpp>
 
 namespace retrace {
 namespace {
@@ -186,6 +187,28 @@ int run(int argc, char** argv) {
   return 0;
 }
 
+constexpr const char* kOutOfMemory =
+    "retrace: out of memory; fewer frames or a smaller thumbnail-width expected\n";
+
+int run_or_say_why(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const vo::Error& error) {
+    fmt::print(stderr, "retrace: {}\n", error.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, kOutOfMemory);
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) {
+      fmt::print(stderr, kOutOfMemory);
+    } else {
+      fmt::print(stderr, "retrace: internal error: {} in {}\n", error.err, error.func);
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "retrace: internal error: {}\n", error.what());
+  }
+  return kFailed;
+}
+
 }  // namespace
 
 extern "C" int retrace_run(int argc, char** argv) {
@@ -203,16 +226,9 @@ extern "C" int retrace_run(int argc, char** argv) {
   spdlog::set_pattern("retrace: %l: %v");
   end_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then fails a write, with its reason, and kills nothing
-  try {
-    return run(argc, argv);
-  } catch (const vo::Error& error) {
-    fmt::print(stderr, "retrace: {}\n", error.what());
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "retrace: out of memory; fewer frames or a smaller thumbnail-width expected\n");
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "retrace: internal error: {}\n", error.what());
-  }
-  return kFailed;
+  const int code = run_or_say_why(argc, argv);
+  vo::discard_partial_paths();  // folders that were made for results and got none
+  return code;
 }
 
 }  // namespace retrace

@@ -49,16 +49,16 @@ void end_on_signals() {
   }
 }
 
-Recording::Recording() {
+EndableReading::EndableReading() {
   recording_ended = false;
   ++recordings;
 }
 
-Recording::~Recording() {
+EndableReading::~EndableReading() {
   --recordings;
 }
 
-bool Recording::ended() {
+bool EndableReading::ended() {
   return recording_ended;
 }
 

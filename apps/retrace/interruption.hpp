@@ -9,12 +9,12 @@ void end_on_signals();
 /// While an object of this class lives, the first SIGINT or SIGTERM does not end the program: it ends a
 /// recording that has no end of its own (a camera, a stream), whose results so far are kept. A second one
 /// ends the program as above.
-class Recording {
+class EndableReading {
  public:
-  Recording();
-  ~Recording();
-  Recording(const Recording&) = delete;
-  Recording& operator=(const Recording&) = delete;
+  EndableReading();
+  ~EndableReading();
+  EndableReading(const EndableReading&) = delete;
+  EndableReading& operator=(const EndableReading&) = delete;
 
   /// True once a signal has come.
   [[nodiscard]] static bool ended();

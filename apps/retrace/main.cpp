@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <string_view>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -24,5 +25,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "retrace: {}\n", dlerror());
     return 1;
   }
-  return reinterpret_cast<decltype(&retrace::retrace_run)>(run)(argc, argv);
+  const int code = reinterpret_cast<decltype(&retrace::retrace_run)>(run)(argc, argv);
+  // Without the destructors of 230 libraries: there is nothing left to do, and some abort where memory is
+  // short.
+  std::fflush(nullptr);
+  ::_exit(code);
 }

@@ -40,7 +40,7 @@ bool ProgressBar::show(const vo::Progress& progress) {
     start_ = now;
   }
   const auto interval = terminal_ ? milliseconds(100) : milliseconds(10000);
-  if (now - shown_ < interval) return !(recording_ && Recording::ended());
+  if (now - shown_ < interval) return !(recording_ && EndableReading::ended());
   shown_ = now;
 
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
@@ -66,7 +66,7 @@ bool ProgressBar::show(const vo::Progress& progress) {
     fmt::print(stderr, "{}\n", line);
   }
   std::fflush(stderr);
-  return !(recording_ && Recording::ended());
+  return !(recording_ && EndableReading::ended());
 }
 
 }  // namespace retrace

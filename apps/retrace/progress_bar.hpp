@@ -34,7 +34,7 @@ class ProgressBar {
   std::string stage_;
   bool terminal_;
   bool drawn_ = false;
-  std::optional<Recording> recording_;
+  std::optional<EndableReading> recording_;
 };
 
 }  // namespace retrace

@@ -7,12 +7,14 @@ tried for each command; RETRACE_FAULTS=all tries every one.
 
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
@@ -35,7 +37,7 @@ COMMANDS = {
     "describe": ["describe", "{walks}/a", "-o", "{w}/a.npy", *SETTINGS],
     "export": ["inspect", "{w}/route.db", "--export", "{w}/folder"],
     "config": ["config", "-o", "{w}/config.toml"],
-    "simulate": ["simulate", "--length-m", "6", "--width-px", "96", "--height-px", "64", "-o", "{w}/walk"],
+    "simulate": ["simulate", "--length-m", "6", "--width", "96", "--height", "64", "-o", "{w}/walk"],
     "video": ["video", "{w}/run", "-o", "{w}/side.mp4", "--width-px", "160"],
 }
 
@@ -139,15 +141,17 @@ class FaultsTest(unittest.TestCase):
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
-    def run_in_workspace(self, command, fresh=True, **shim):
-        """The finished command; the workspace is as at the beginning before it, unless not fresh."""
+    def run_in_workspace(self, command, fresh=True, limit=None, **shim):
+        """The finished command, in so many bytes of memory; the workspace is as at the beginning before it, unless not
+        fresh."""
         if fresh:
             shutil.rmtree(self.workspace, ignore_errors=True)
             shutil.copytree(self.base, self.workspace)
         environment = dict(os.environ, LD_PRELOAD=SHIM, DISK_SHIM_FOLDER=str(self.workspace) + "/", TZ="UTC")
         environment.update({f"DISK_SHIM_{name}": str(value) for name, value in shim.items()})
         arguments = [a.format(w=self.workspace, walks=self.walks) for a in COMMANDS[command]]
-        return subprocess.run([RETRACE, *arguments], env=environment, capture_output=True, text=True, timeout=300)
+        return subprocess.run([RETRACE, *arguments], env=environment, capture_output=True, text=True, timeout=300,
+                              preexec_fn=limit and (lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit))))
 
     def recorded(self, command):
         """Its operations, and what the workspace holds before and after it."""
@@ -219,6 +223,51 @@ class FaultsTest(unittest.TestCase):
                     again = self.run_in_workspace(command, fresh=False)
                     if again.returncode == 0:  # else all of it was there already
                         self.assertEqual(contents(self.workspace), after, f"{where}, then run again")
+
+    def test_memory_limits(self):
+        """At ten limits, from too little to load the program to enough: done, or one line and nothing left behind."""
+        for command in ("build", "localise"):
+            _, before, after = self.recorded(command)
+            ended = set()
+            for megabytes in (100, 200, 300, 350, 380, 410, 450, 550, 700, 3000):
+                where = f"{command} in {megabytes} MB"
+                done = self.run_in_workspace(command, limit=megabytes << 20)
+                ended.add(done.returncode)
+                if done.returncode == 0:
+                    self.assertEqual(contents(self.workspace), after, where)
+                    continue
+                self.assertEqual(done.returncode, 1, f"{where}: {done.stderr}")
+                self.assert_one_line(done, where)
+                self.assertEqual(contents(self.workspace), before, where)
+            self.assertEqual(ended, {0, 1}, command)
+
+    def test_the_folder_for_results_vanishes(self):
+        shutil.rmtree(self.workspace, ignore_errors=True)
+        shutil.copytree(self.base, self.workspace)
+        frames = [path.read_bytes().split(b"\n", 1)[1] for path in
+                  sorted((self.walks / "b").iterdir(), key=lambda path: int(path.stem))]
+        width, height = 96, 48
+        process = subprocess.Popen(
+            [RETRACE, "localise", "-", "--route", self.workspace / "route.db", "-o", self.workspace / "new"],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process.stdin.write(f"YUV4MPEG2 W{width} H{height} F25:1 Cmono\n".encode())
+        pixels = width * height
+        for i, frame in enumerate(frames):
+            process.stdin.write(b"FRAME\n" + frame[-pixels:])
+            if i == len(frames) // 2:
+                process.stdin.flush()
+                self.wait_for(self.workspace / "new")
+                (self.workspace / "new").rmdir()
+        output, error = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 1, error)
+        self.assertRegex(error.decode().strip().splitlines()[-1], "^retrace: .*new: cannot be written to: ")
+        self.assertFalse((self.workspace / "new").exists())
+
+    def wait_for(self, path):
+        end = time.monotonic() + 60
+        while not path.exists():
+            self.assertLess(time.monotonic(), end, f"{path} did not appear")
+            time.sleep(0.01)
 
     def test_a_power_loss_while_a_walk_is_added(self):
         """At every operation, with everything that was not flushed lost, and with renames before their time: the route is

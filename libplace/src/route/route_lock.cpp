@@ -84,6 +84,7 @@ RouteLock::RouteLock(const fs::path& route, const RouteLockOptions& options)
     const Attempt attempt = try_lock(descriptor);
     if (attempt == Attempt::kNoLocks || (attempt == Attempt::kTaken && is_still(descriptor, file_))) {
       descriptor_ = descriptor;
+      named_.emplace(file_);
       break;
     }
     ::close(descriptor);
@@ -106,7 +107,7 @@ RouteLock::RouteLock(const fs::path& route, const RouteLockOptions& options)
 
 RouteLock::~RouteLock() {
   // First the name, then the lock: a process that gets the lock of a file without a name tries again.
-  ::unlink(file_.c_str());
+  named_.reset();
   ::close(descriptor_);
 }
 

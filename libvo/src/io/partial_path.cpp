@@ -15,22 +15,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Entry {
+struct PartialEntry {
   fs::path path;
   Removal removal;
 };
 
-struct Registry {
+struct PartialRegistry {
   std::mutex mutex;
-  std::vector<Entry> entries;  ///< in order of creation
+  std::vector<PartialEntry> entries;  ///< in order of creation
 };
 
-Registry& registry() {
-  static auto& only = *new Registry;  // objects may outlive the statics
+PartialRegistry& partial_registry() {
+  static auto& only = *new PartialRegistry;  // objects may outlive the statics
   return only;
 }
 
-void remove(const Entry& entry) {
+void remove_partial(const PartialEntry& entry) {
   std::error_code ignored;
   if (entry.removal == Removal::kAll) {
     fs::remove_all(entry.path, ignored);
@@ -39,34 +39,34 @@ void remove(const Entry& entry) {
   }
 }
 
-void forget(std::vector<Entry>& entries, const fs::path& path) {
-  std::erase_if(entries, [&](const Entry& entry) { return entry.path == path; });
+void forget(std::vector<PartialEntry>& entries, const fs::path& path) {
+  std::erase_if(entries, [&](const PartialEntry& entry) { return entry.path == path; });
 }
 
 }  // namespace
 
 PartialPath::PartialPath(fs::path path, Removal removal) : path_(std::move(path)) {
-  const std::scoped_lock lock(registry().mutex);
-  registry().entries.push_back({path_, removal});
+  const std::scoped_lock lock(partial_registry().mutex);
+  partial_registry().entries.push_back({path_, removal});
 }
 
 PartialPath::~PartialPath() {
-  const std::scoped_lock lock(registry().mutex);
-  std::vector<Entry>& entries = registry().entries;
-  for (const Entry& entry : entries)
-    if (entry.path == path_) remove(entry);
+  const std::scoped_lock lock(partial_registry().mutex);
+  std::vector<PartialEntry>& entries = partial_registry().entries;
+  for (const PartialEntry& entry : entries)
+    if (entry.path == path_) remove_partial(entry);
   forget(entries, path_);
 }
 
 int PartialPath::rename_to(const fs::path& name) {
-  const std::scoped_lock lock(registry().mutex);
+  const std::scoped_lock lock(partial_registry().mutex);
   if (std::rename(path_.c_str(), name.c_str()) != 0) return errno;
-  forget(registry().entries, path_);
+  forget(partial_registry().entries, path_);
   return 0;
 }
 
 void PartialPath::release_into(const fs::path& folder) {
-  const std::scoped_lock lock(registry().mutex);
+  const std::scoped_lock lock(partial_registry().mutex);
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_)) files.push_back(entry.path());
   std::ranges::sort(files);
@@ -78,10 +78,10 @@ void PartialPath::release_into(const fs::path& folder) {
 }
 
 void discard_partial_paths() {
-  registry().mutex.lock();  // for good
-  std::vector<Entry>& entries = registry().entries;
+  partial_registry().mutex.lock();  // for good
+  std::vector<PartialEntry>& entries = partial_registry().entries;
   while (!entries.empty()) {
-    remove(entries.back());  // what a folder holds was made after it
+    remove_partial(entries.back());  // what a folder holds was made after it
     entries.pop_back();
   }
 }

@@ -94,6 +94,7 @@ std::vector<double> picture_times_s(const std::vector<std::string>& files,
     times_s.push_back(*tags[i].time_s - *tags[0].time_s);
   }
   for (std::size_t begin = 0, end = 0; begin < times_s.size(); begin = end) {
+    end = begin + 1;
     while (end < times_s.size() && times_s[end] == times_s[begin]) ++end;
     const double until_s =
         end < times_s.size() ? std::min(times_s[end], times_s[begin] + kSecond) : times_s[begin] + kSecond;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include <vo/io/partial_path.hpp>
+
 namespace place {
 
 /// Settings of `RouteLock`.
@@ -43,7 +45,8 @@ class RouteLock {
   static std::optional<Stamp> stamp(const std::filesystem::path& file);
 
   std::filesystem::path route_;
-  std::filesystem::path file_;  ///< the lock file
+  std::filesystem::path file_;            ///< the lock file
+  std::optional<vo::PartialPath> named_;  ///< the lock file's name, which goes with the lock
   int descriptor_ = -1;
   std::optional<Stamp> stamp_;
 };
