@@ -3,11 +3,11 @@
 #include "follow_page.hpp"
 #include "follow_record.hpp"
 #include "follow_view.hpp"
+#include "interruption.hpp"
 #include "newest_frame.hpp"
 #include "run_directory.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -47,8 +47,6 @@ struct FollowOptions {
   std::optional<std::size_t> view;
   std::string view_address = FollowViewOptions{}.address;
 };
-
-volatile std::sig_atomic_t interrupted = 0;
 
 /// A line goes out as soon as it is known, and into a file, which has its name once it is complete.
 class Lines {
@@ -102,13 +100,11 @@ void follow(const FollowOptions& options) {
   std::optional<NewestFrame> newest;
   if (is_live(options.walk)) newest.emplace(std::move(source));
 
-  interrupted = 0;
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  const EndableReading reading;
   Lines lines(options.output);
   FollowRecord record;
   std::string trouble;
-  while (interrupted == 0) {
+  while (!EndableReading::ended()) {
     std::optional<vo::Frame> frame;
     try {
       frame = newest ? newest->next(kPatience_s) : source->next();
@@ -133,7 +129,7 @@ void follow(const FollowOptions& options) {
   if (newest) {
     if (newest->dropped() > 0)
       spdlog::warn("{}: {} frames were skipped, to keep up", options.walk, newest->dropped());
-    if (interrupted == 0)
+    if (!EndableReading::ended())
       throw vo::Error(options.walk, fmt::format("sent no picture for {:g} s", kPatience_s),
                       "a camera that goes on; what was seen is kept");
     return;
