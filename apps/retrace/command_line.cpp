@@ -225,6 +225,7 @@ extern "C" int retrace_run(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_st("retrace"));
   spdlog::set_pattern("retrace: %l: %v");
   end_on_signals();
+  std::atexit(vo::discard_partial_paths);  // libgomp ends the program where it gets no thread
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit then fails a write, with its reason, and kills nothing
   const int code = run_or_say_why(argc, argv);
   vo::discard_partial_paths();  // folders that were made for results and got none

@@ -100,7 +100,7 @@ void follow(const FollowOptions& options) {
   std::optional<NewestFrame> newest;
   if (is_live(options.walk)) newest.emplace(std::move(source));
 
-  const EndableReading reading;
+  const EndableReading endable;
   Lines lines(options.output);
   FollowRecord record;
   std::string trouble;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -62,7 +63,9 @@ Recording simulate_walk(const Options& options, const fs::path& directory, bool 
                         const vo::ProgressCallback& progress) {
   validate(options);
   std::error_code failure;
-  fs::create_directories(directory, failure);
+  std::optional<vo::PartialPath> made;  // unless files come into it
+  if (fs::create_directories(directory, failure))
+    made.emplace(directory.has_filename() ? directory : directory.parent_path(), vo::Removal::kIfEmpty);
   if (failure)
     throw vo::Error(directory.string(), "cannot be made: " + failure.message(), "a folder one may write to");
   PendingFile video(directory / "walk.mp4", overwrite);

@@ -46,7 +46,8 @@ TEST(AccelerationSteps, AreOneForEachImpact) {
         30, 200, [&](double t) { return cadence_hz * t; }, [](double) { return 1.5; }));
     EXPECT_NEAR(static_cast<double>(steps.size()), 30 * cadence_hz, 1)
         << cadence_hz;  // one may be cut at an end
-    for (std::size_t i = 1; i < steps.size(); ++i)
+    // But for the first and last, where the filter has to guess what lies beyond.
+    for (std::size_t i = 2; i + 1 < steps.size(); ++i)
       EXPECT_NEAR(steps[i] - steps[i - 1], 1 / cadence_hz, 0.1) << cadence_hz << " at " << steps[i];
   }
 }
