@@ -31,7 +31,7 @@ void print_table(const place::RunEvaluation& run, const std::filesystem::path& f
     fmt::print("median error {:.3g} {}, 95 % within {:.3g}\n", e.errors->p50, name_of(run.unit),
                e.errors->p95);
   fmt::print("{} query keyframes, {} with a true place, {} matched; see {}\n", e.queries, e.with_truth,
-             e.matched, (folder / "report.html").string());
+             e.matched, evaluation_page(folder).string());
 }
 
 void evaluate(const EvaluateOptions& options) {
@@ -47,7 +47,7 @@ void evaluate(const EvaluateOptions& options) {
 
 std::function<void()> declare_evaluate(Arguments& arguments) {
   auto options = std::make_shared<EvaluateOptions>();
-  arguments.positional("run", options->folder, "folder written by `retrace localise`");
+  arguments.positional("run", options->folder, "folder written by `retrace localise` or `retrace follow`");
   declare_truth(arguments, options->truth);
   arguments.json(options->common);
   arguments

@@ -142,6 +142,10 @@ std::string errors_csv(const std::vector<place::Match>& matches, const place::Ru
 
 }  // namespace
 
+fs::path evaluation_page(const fs::path& folder) {
+  return folder / (fs::exists(folder / "follow.jsonl") ? "evaluation.html" : "report.html");
+}
+
 std::pair<place::RunEvaluation, ordered_json> evaluate_folder(const fs::path& folder,
                                                               const TruthOptions& options) {
   if (!fs::is_directory(folder))
@@ -163,7 +167,8 @@ std::pair<place::RunEvaluation, ordered_json> evaluate_folder(const fs::path& fo
   vo::write_file(staged.path() / "metrics.json", metrics.dump(2) + "\n");
   vo::write_file(staged.path() / "pr.csv", vo::to_csv<OperatingPoint>(truth.evaluation.curve, kCurveColumns));
   vo::write_file(staged.path() / "errors.csv", errors_csv(matches, truth));
-  vo::write_file(staged.path() / "report.html", run_report(folder, read_run_data(folder), &truth));
+  vo::write_file(staged.path() / evaluation_page(folder).filename(),
+                 run_report(folder, read_run_data(folder), &truth));
   staged.commit();
   return {std::move(truth), std::move(metrics)};
 }

@@ -10,9 +10,12 @@
 
 namespace retrace {
 
+/// The page of a run's evaluation: its report, or, of a followed walk, a page beside the one that plays it.
+std::filesystem::path evaluation_page(const std::filesystem::path& folder);
+
 /// Compares a run with the truth (`place::evaluate`) and writes metrics.json, pr.csv, errors.csv and
-/// report.html into its folder. Returns the evaluation and the contents of metrics.json. Throws `vo::Error`
-/// if there is no such run, or the truth gives none of its keyframes a true place.
+/// `evaluation_page` into its folder. Returns the evaluation and the contents of metrics.json. Throws
+/// `vo::Error` if there is no such run, or the truth gives none of its keyframes a true place.
 std::pair<place::RunEvaluation, nlohmann::ordered_json> evaluate_folder(const std::filesystem::path& folder,
                                                                         const TruthOptions& truth);
 

@@ -1,5 +1,7 @@
 #include "command.hpp"
+#include "follow_files.hpp"
 #include "follow_lines.hpp"
+#include "follow_matches.hpp"
 #include "follow_page.hpp"
 #include "follow_record.hpp"
 #include "follow_view.hpp"
@@ -73,6 +75,12 @@ class Lines {
   std::ofstream file_;
 };
 
+/// What an earlier run may have left that this one does not write: it would belong to other matches.
+const std::vector<std::string> kStaleFiles{
+    "metrics.json",       "pr.csv",         "errors.csv",     "evaluation.html",
+    "trajectory.geojson", "trajectory.gpx", "trajectory.csv", "trajectory_odometry.tum",
+    "report_data.json"};
+
 /// True for what does not wait for a slow reader.
 bool is_live(const std::string& walk) {
   return walk.starts_with("camera:") || walk.starts_with("rtsp://");
@@ -85,8 +93,7 @@ void follow(const FollowOptions& options) {
   const place::Route route = place::read_route(options.route, {.previews = shown, .view_points = false});
   place::Follower follower(route, options.settings, {.lag_s = options.lag_s});
   place::Announcer announcer(route);
-  if (!options.output.empty())
-    prepare_run_directory(options.output, {"follow.jsonl", "report.html"}, options.common.force);
+  if (!options.output.empty()) prepare_run_directory(options.output, kFollowFiles, options.common.force);
   std::optional<FollowView> view;
   if (options.view) {
     view.emplace(route, options.walk,
@@ -103,6 +110,8 @@ void follow(const FollowOptions& options) {
   const EndableReading endable;
   Lines lines(options.output);
   FollowRecord record;
+  FollowMatches matches(route);
+  FollowRun run{.walk = options.walk, .route = options.route, .lag_s = options.lag_s};
   std::string trouble;
   while (!EndableReading::ended()) {
     std::optional<vo::Frame> frame;
@@ -115,26 +124,39 @@ void follow(const FollowOptions& options) {
     if (!frame) break;
     const place::Position position = follower.push(*frame);
     lines.write(follow_line(position));
-    if (!options.output.empty()) record.push(position, *frame);
+    ++run.frames;
+    run.on_route += position.place ? 1 : 0;
+    run.duration_s = position.time_s;
+    if (!options.output.empty()) {
+      record.push(position, *frame);
+      matches.push(position);
+    }
     const std::vector<place::FollowEvent> events = announcer.push(position);
     if (view) view->push(position, *frame, events);
     if (!options.announce) continue;
     for (const place::FollowEvent& event : events) lines.write(event_line(event));
   }
   lines.finish();
-  if (!options.output.empty())
-    vo::write_file(fs::path(options.output) / "report.html", record.page(route, options.walk));
+  run.skipped = newest ? newest->dropped() : 0;
+  if (run.skipped > 0)
+    run.warnings.push_back(fmt::format("{}: {} frames were skipped, to keep up", options.walk, run.skipped));
+  if (!newest) {
+    run.warnings = opened.warnings();
+    run.start_utc_s = opened.start_utc_s();
+  }
+  if (!options.output.empty()) {
+    matches.finish(follower.finish());
+    StagedFiles staged(options.output);
+    write_follow_files(staged.path(), run, route, follower.settings(), matches.matches());
+    vo::write_file(staged.path() / "report.html", record.page(route, options.walk));
+    staged.commit(kStaleFiles);
+  }
+  for (const std::string& warning : run.warnings) spdlog::warn("{}", warning);
   if (!trouble.empty())
     throw vo::Error(options.walk, trouble, "a source that goes on; what was seen is kept");
-  if (newest) {
-    if (newest->dropped() > 0)
-      spdlog::warn("{}: {} frames were skipped, to keep up", options.walk, newest->dropped());
-    if (!EndableReading::ended())
-      throw vo::Error(options.walk, fmt::format("sent no picture for {:g} s", kPatience_s),
-                      "a camera that goes on; what was seen is kept");
-    return;
-  }
-  for (const std::string& warning : opened.warnings()) spdlog::warn("{}", warning);
+  if (newest && !EndableReading::ended())
+    throw vo::Error(options.walk, fmt::format("sent no picture for {:g} s", kPatience_s),
+                    "a camera that goes on; what was seen is kept");
 }
 
 }  // namespace
@@ -145,8 +167,10 @@ std::function<void()> declare_follow(Arguments& arguments) {
       "walk", options->walk,
       "video file, folder of images, camera:N, an rtsp:// address, or - (Y4M on standard input)");
   arguments.option("--route", options->route, "route database").required();
-  arguments.option("-o,--output", options->output,
-                   "folder for follow.jsonl and report.html, which plays the walk [none]");
+  arguments.option(
+      "-o,--output", options->output,
+      "folder for follow.jsonl, what localise writes of a run, and report.html, which plays the walk "
+      "[none]");
   arguments.option("--lag-s", options->lag_s, "seconds that a second, surer answer looks back by; 0: none")
       .range(0, 60);
   arguments.flag("--announce", options->announce,

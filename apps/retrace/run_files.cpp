@@ -224,11 +224,11 @@ void put_trajectory(const place::QueryTrajectory& t, const place::Route& route,
                     const std::vector<place::Match>& matches, const fs::path& folder,
                     std::optional<double> start_utc_s) {
   if (!t.why_not.empty()) {
+    const vo::Trajectory poses = matched_poses(matches, route, false).poses;
     const std::string comment =
-        t.fixes.empty() ? fmt::format("no pose: {}", t.why_not)
-                        : fmt::format("query time, pose of the matched reference keyframe: {}", t.why_not);
-    vo::write_file(folder / "trajectory.tum",
-                   vo::to_tum(matched_poses(matches, route, false).poses, comment));
+        poses.empty() ? fmt::format("no pose: {}", t.why_not)
+                      : fmt::format("query time, pose of the matched reference keyframe: {}", t.why_not);
+    vo::write_file(folder / "trajectory.tum", vo::to_tum(poses, comment));
     write_geographic(folder, matched_poses(matches, route, true), route, start_utc_s);
     return;
   }

@@ -1,6 +1,7 @@
 #include "place/place.hpp"
 
 #include "place/certainty/not_found.hpp"
+#include "place/match/nearest_place.hpp"
 #include "place/match/verify_matches.hpp"
 #include "place/match/walk_gaps.hpp"
 #include "place/route/motion_choice.hpp"
@@ -198,6 +199,7 @@ Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
     run.warnings.push_back(*warning);
   if (options.verify > 0)
     verify_matches(route, run.sampled.view_points, {.places = options.verify}, run.matches);
+  name_places(run.matches, route);
   run.drift = corrected(route, walk, run, options);
   if (run.drift.why_not.empty()) run.trajectory = poses_of(run.drift.corrected);
   return run;

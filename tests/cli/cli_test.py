@@ -21,6 +21,7 @@ from support.retrace_cli import RETRACE, SOURCE, check, draw_walk, read_json, ro
 MATCH_COLUMNS = ["query_frame", "query_time_s", "traverse", "reference_frame", "reference_time_s",
                  "reference_distance_m", "score", "accepted", "probability", "sd_keyframes", "sd_m", "yaw_deg", "lateral_m",
                  "ahead_m"]
+NAMES = ["nearest_place", "nearest_place_m"]
 
 
 def positions(speeds):
@@ -92,7 +93,7 @@ class CliTest(unittest.TestCase):
 
     def test_finds_the_walk_and_writes_the_contract_s_files(self):
         found = rows(self.walks.run / "matches.csv")
-        self.assertEqual(list(found[0]), MATCH_COLUMNS)
+        self.assertEqual(list(found[0]), MATCH_COLUMNS + NAMES)
         frames = [int(row["query_frame"]) for row in found]
         self.assertEqual(frames, sorted(set(frames)))
         keyframes = json.loads(check("inspect", self.walks.route, "--json"))["traverses"][0]["keyframe"]
@@ -851,6 +852,31 @@ class CliTest(unittest.TestCase):
         lines = check("follow", self.walks.query, "--route", self.walks.route, "-o", out, "--announce").splitlines()
         self.assertEqual((out / "follow.jsonl").read_text().splitlines(), lines)
         self.assertIn("data-kind=\"player\"", (out / "report.html").read_text())
+        # What reads the runs of localise reads these.
+        matches = rows(out / "matches.csv")
+        self.assertEqual(list(matches[0]), MATCH_COLUMNS + NAMES)
+        by_frame = {line["frame"]: line for line in map(json.loads, lines) if "state" in line}
+        for row in matches:
+            line = by_frame[int(row["query_frame"])]
+            self.assertEqual(row["accepted"] == "1", line["state"] == "on_route")
+            self.assertEqual(row["reference_frame"], str(line.get("reference_frame", "")))
+        summary = read_json(out / "summary.json")
+        self.assertEqual((summary["query_frames"], summary["queries"]), (len(by_frame), len(matches)))
+        self.assertEqual(summary["accepted"], sum(row["accepted"] == "1" for row in matches))
+        self.assertEqual(len([line for line in (out / "trajectory.tum").read_text().splitlines() if not line.startswith("#")]),
+                         summary["accepted"])
+        self.assertIn('descriptor = ', (out / "config.toml").read_text())
+        page = (out / "report.html").read_bytes()
+        found = json.loads(check("evaluate", out, "--query-truth", self.walks.query_truth, "--reference-truth",
+                                 self.walks.reference_truth, "--tolerance-m", 0.48, "--json"))
+        self.assertGreater(found["accepted"]["precision"], 0.9)
+        self.assertEqual((out / "report.html").read_bytes(), page)
+        self.assertTrue((out / "evaluation.html").exists())
+        check("follow", self.walks.query, "--route", self.walks.route, "-o", out, "--lag-s", 1, "--force")
+        surer = rows(out / "matches.csv")
+        self.assertEqual([row["query_frame"] for row in surer], [row["query_frame"] for row in matches])
+        # By now the first ones are known too.
+        self.assertGreater(sum(row["accepted"] == "1" for row in surer), summary["accepted"])
         told = [json.loads(line) for line in lines]
         positions = [line for line in told if "state" in line]
         self.assertEqual([line["frame"] for line in positions], list(range(len(self.walks.query_at))))
@@ -882,6 +908,17 @@ class CliTest(unittest.TestCase):
         self.assertEqual([line["name"] for line in passing], ["bakery", "bench, <script>"])
         for line in passing:
             self.assertLessEqual(abs(line["distance_m"]), 2)
+
+        # localise names the nearest, in its file as it is written anywhere.
+        check("localise", self.walks.query, "--route", route, "-o", self.folder / "named")
+        matches = [row for row in rows(self.folder / "named" / "matches.csv") if row["reference_frame"]]
+        self.assertEqual({row["nearest_place"] for row in matches}, {"bakery", "bench, <script>"})
+        for row in matches:
+            to = {"bakery": 2.5, "bench, <script>": 4}[row["nearest_place"]] - float(row["reference_distance_m"])
+            self.assertAlmostEqual(float(row["nearest_place_m"]), to, delta=0.03)
+            self.assertEqual(row["nearest_place"], "bakery" if float(row["reference_distance_m"]) < 3.25 else "bench, <script>")
+        truth = ("--query-truth", self.walks.query_truth, "--reference-truth", self.walks.reference_truth, "--tolerance-m", 1)
+        check("evaluate", self.folder / "named", *truth)  # which reads it
 
         # A second walk keeps them, and so does an exported route.
         check("build", self.walks.query, "-o", route, "--name", "evening")

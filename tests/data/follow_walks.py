@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How well `retrace follow` follows: a table over the shared drawn pairs, and over routes drawn here.
 
-    RETRACE_DATA=... python3 tests/data/follow_walks.py [--routes 10] [--length-m 60]
+    RETRACE_DATA=... python3 tests/data/follow_walks.py [--routes 10] [--length-m 60] [--first-seed 41] [--width 640] [--drawn-only]
 
 A drawn route is a street or a corridor in turn, by day; the walk on it is by night or among passers-by, at another speed, up
 to half a metre aside. Of every route: the whole walk, and, for two of four, a walk that begins a third of the way along, leaves
@@ -117,24 +117,25 @@ def row(name, followed):
 
 def walks(options, folder):
     """(name, route's walk, its truth.csv, walk, where on the route each frame is, metres along)."""
-    if DATA.is_dir():
+    if DATA.is_dir() and not options.drawn_only:
         for name, a, b in (("street by night", "street_day", "street_night"), ("corridor with people", "corridor_a", "corridor_b")):
             truth = [float(r["distance_m"]) for r in rows(DATA / "sim" / f"{b}.csv")]
             yield name, DATA / "sim" / f"{a}.mp4", DATA / "sim" / f"{a}.csv", DATA / "sim" / f"{b}.mp4", truth, truth
     for i in range(options.routes):
-        scene, seed, length = ("street", "corridor")[i % 2], 41 + i, options.length_m
+        scene, seed, length = ("street", "corridor")[i % 2], options.first_seed + i, options.length_m
+        size, gait = {"width": options.width, "height": options.width * 9 // 16}, options.first_seed + 59 + i
         here = folder / f"route{i}"
         here.mkdir()
         light = {"condition": "night"} if scene == "street" else {"people": 3}
-        day = draw(here / "a", scene=scene, seed=seed, length_m=length, speed=SPEEDS[i % 5], gait_seed=100 + i)
-        walk = draw(here / "b", scene=scene, seed=seed, length_m=length, speed=SPEEDS[(i + 2) % 5], gait_seed=200 + i,
-                    lateral_m=(0.3, -0.2, 0, 0.5, -0.4)[i % 5], **light)
+        day = draw(here / "a", scene=scene, seed=seed, length_m=length, speed=SPEEDS[i % 5], gait_seed=gait, **size)
+        walk = draw(here / "b", scene=scene, seed=seed, length_m=length, speed=SPEEDS[(i + 2) % 5], gait_seed=gait + 100,
+                    lateral_m=(0.3, -0.2, 0, 0.5, -0.4)[i % 5], **light, **size)
         reference = (day / "walk.mp4", day / "truth.csv")
         truth = [float(r["distance_m"]) for r in rows(walk / "truth.csv")]
         yield (f"{scene} {seed}", *reference, walk / "walk.mp4", truth, truth)
         if i % 4 > 1:
             continue
-        side = draw(here / "side", scene=scene, seed=seed + 1000, length_m=35, gait_seed=300 + i, **light)
+        side = draw(here / "side", scene=scene, seed=seed + 1000, length_m=35, gait_seed=gait + 200, **light, **size)
         yield (f"{scene} {seed}, a detour", *reference,
                *join(here, "detour", [(walk, length / 3, length * 2 / 3, True), (side, 1, 31, False), (walk, length * 2 / 3, length, True)]))
         yield (f"{scene} {seed}, carried on", *reference,
@@ -145,6 +146,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--routes", type=int, default=10)
     parser.add_argument("--length-m", type=float, default=60)
+    parser.add_argument("--first-seed", type=int, default=41, help="of the routes drawn")
+    parser.add_argument("--width", type=int, default=640, help="pixels, of the pictures drawn")
+    parser.add_argument("--drawn-only", action="store_true", help="without the shared pairs")
     options = parser.parse_args()
     everything = []
     print("| walk | found after m | within 2 m | median m | leaving said after m | back after m | called off the route | "

@@ -203,6 +203,16 @@ py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
   return result;
 }
 
+py::list finish(const PythonFollower& self) {
+  py::list all;
+  for (const place::EarlierPlace& earlier : self.follower.finish()) {
+    py::dict one = earlier.place ? as_dict(*earlier.place) : py::dict();
+    one["frame"] = earlier.frame;
+    all.append(one);
+  }
+  return all;
+}
+
 }  // namespace
 
 void bind_walks(py::module_& module) {
@@ -320,7 +330,10 @@ void bind_walks(py::module_& module) {
            "off_route (the "
            "probability of being off it), and on the route traverse, reference_frame, distance_m, sd_m, "
            "probability, x_m, y_m, "
-           "heading_deg.");
+           "heading_deg.")
+      .def("finish", &finish,
+           "After the last picture: the surer answers that no later one has brought, oldest first, as dicts "
+           "of frame and, where it was on the route, what `push` gives of a place.");
 
   module.def("read_walk", &read_walk, py::arg("source"), py::arg("route") = py::none(), py::kw_only(),
              py::arg("progress") = py::none(),

@@ -160,6 +160,11 @@ def test_follows_a_walker(walks):
             told += 1
             right += abs(now["distance_m"] - position / 100) < 0.5
     assert told > len(positions) / 2 and right > 0.9 * told
+    earlier = follower.finish()
+    assert earlier[0]["frame"] == now["lag"]["frame"] and len(earlier) > 1
+    for one in earlier[1:]:
+        assert len(positions) - 60 < one["frame"] < len(positions)
+        assert abs(one["distance_m"] - positions[one["frame"]] / 100) < 0.5
     with pytest.raises(ValueError):
         follower.push(np.zeros((3, 4, 5), np.uint8), 1e9)
 

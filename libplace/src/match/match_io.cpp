@@ -41,6 +41,14 @@ std::string cell_of(const std::optional<double>& value) {
   return value ? fmt::format("{:.6g}", *value) : std::string();
 }
 
+/// A text as a cell, in quotes where it has what would end it [RFC 4180].
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",;\t\"#\r\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return cell + '"';
+}
+
 // The reference frame comes first among those of the place: it says whether there is one.
 using Column = vo::CsvColumn<Match>;
 constexpr std::array kColumns{
@@ -123,6 +131,17 @@ constexpr std::array kColumns{
            [](const Match& m) { return m.ahead_m ? fmt::format("{:.3f}", *m.ahead_m) : std::string(); },
            [](Match& m, std::string_view cell) {
              return cell.empty() || read_number(cell, m.ahead_m.emplace());
+           },
+           kNumber, false},
+    Column{"nearest_place", [](const Match& m) { return quoted(m.nearest_place); },
+           [](Match& m, std::string_view cell) {
+             m.nearest_place = cell;
+             return true;
+           },
+           "", false},
+    Column{"nearest_place_m", [](const Match& m) { return cell_of(m.nearest_place_m); },
+           [](Match& m, std::string_view cell) {
+             return cell.empty() || read_number(cell, m.nearest_place_m.emplace());
            },
            kNumber, false},
 };

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <vo/base/trajectory.hpp>
 #include <vo/io/frame_source.hpp>
@@ -42,9 +43,16 @@ struct Position {
   FollowState state = FollowState::kSearching;
   std::optional<FollowedPlace> place;  ///< where the state is on the route
   double off_route = 0;                ///< probability of being off the route
+  bool described = false;              ///< this picture was compared with the route
   /// The surer answer of `FollowerOptions::lag_s` ago, or of the first description, with the frame it is of.
   std::optional<std::int64_t> lag_frame;
   std::optional<FollowedPlace> lag_place;  ///< none where the walker was on no place of the route
+};
+
+/// Where the walker was at an earlier frame, as is known by now.
+struct EarlierPlace {
+  std::int64_t frame = 0;
+  std::optional<FollowedPlace> place;  ///< none where he was on no place of the route
 };
 
 /// Settings of `Follower`.
@@ -78,6 +86,13 @@ class Follower {
 
   /// The next frame; `time_s` later than the one before, else `std::invalid_argument`.
   Position push(const vo::Frame& frame);
+
+  /// After the last frame: the surer answers that no later one has brought, of the frames described within
+  /// the lag, oldest first. None without a lag. O(keyframes * descriptions in the lag, squared).
+  [[nodiscard]] std::vector<EarlierPlace> finish() const;
+
+  /// All settings in use, the route's and those given.
+  [[nodiscard]] const Settings& settings() const;
 
   /// How frames are to be read: `vo::open_frame_source` with these gives what `push` takes.
   [[nodiscard]] const vo::FrameSourceOptions& frame_source() const;

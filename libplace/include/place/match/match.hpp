@@ -30,10 +30,12 @@ struct Match {
   std::optional<double> sd_m;          ///< the same in metres along the route, where surveyed
   /// How far the camera is turned to the right of the reference's; none if the points do not say.
   std::optional<double> yaw_rad;
-  std::optional<double> lateral_m;  ///< right of the reference's path; none as above, or without metres
-  std::optional<double> ahead_m;    ///< of the matched keyframe, along its heading; none as above
-  bool accepted = false;            ///< meets the acceptance settings
-  bool partial = false;             ///< found on only a part of its line, at an end of either walk
+  std::optional<double> lateral_m;        ///< right of the reference's path; none as above, or without metres
+  std::optional<double> ahead_m;          ///< of the matched keyframe, along its heading; none as above
+  std::string nearest_place;              ///< of the route's named places (`name_places`); empty: none
+  std::optional<double> nearest_place_m;  ///< along the route to it, negative if it is behind
+  bool accepted = false;                  ///< meets the acceptance settings
+  bool partial = false;                   ///< found on only a part of its line, at an end of either walk
 };
 
 }  // namespace place

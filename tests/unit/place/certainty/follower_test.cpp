@@ -96,6 +96,31 @@ TEST_F(FollowerTest, LooksBackByItsLag) {
               2 * spacing_px(route_.traverses[0]) / 10);
 }
 
+TEST_F(FollowerTest, FinishesWithWhatTheLagHeldBack) {
+  place::Follower follower(route_, {}, {.lag_s = 1}), without(route_);
+  EXPECT_TRUE(follower.finish().empty());
+  std::vector<std::int64_t> described;
+  place::Position last;
+  for (std::size_t i = 0; i < 400; ++i) {
+    last = follower.push(frame_of(night_, i));
+    if (last.described) described.push_back(last.frame);
+    without.push(frame_of(night_, i));
+  }
+  EXPECT_TRUE(without.finish().empty());
+  const std::vector<place::EarlierPlace> earlier = follower.finish();
+  ASSERT_GT(earlier.size(), 1U);
+  ASSERT_GT(described.size(), earlier.size());
+  // Those from the last one that was answered on: the same answer of that one, a new one of each other.
+  EXPECT_EQ(earlier.front().frame, *last.lag_frame);
+  EXPECT_EQ(earlier.front().place->distance_m, last.lag_place->distance_m);
+  for (std::size_t i = 0; i < earlier.size(); ++i) {
+    EXPECT_EQ(earlier[i].frame, described[described.size() - earlier.size() + i]);
+    EXPECT_NEAR(*earlier[i].place->distance_m,
+                night_.place_px[static_cast<std::size_t>(earlier[i].frame)] / 10,
+                2 * spacing_px(route_.traverses[0]) / 10);
+  }
+}
+
 TEST_F(FollowerTest, SaysWhenTheRouteIsLeft) {
   const Wall elsewhere(kWallPx, 99);
   KnownWalk walk = steady_walk(wall_, 0.8, 100, 400);
