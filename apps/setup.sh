@@ -7,7 +7,7 @@ packages=(cmake g++ ninja-build libopencv-dev libavformat-dev libswscale-dev lib
   libspdlog-dev libfmt-dev libflann-dev liblz4-dev libcpp-httplib-dev libjs-chart.js)
 if [[ "${1:-}" == --tests ]]; then
   packages+=(libgtest-dev libgmock-dev clang-format clang-tidy python3 python3-dev python3-numpy python3-pytest pybind11-dev ffmpeg bc
-    chromium chromium-driver python3-selenium lintian dpkg-dev file slurmctld slurmd slurm-client munge g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static)
+    chromium chromium-driver python3-selenium lintian dpkg-dev file slurmctld slurmd slurm-client munge openmpi-bin libopenmpi-dev g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static)
 fi
 if [[ "${1:-}" == --benches ]]; then
   packages+=(libbenchmark-dev libdlib-dev libfaiss-dev ffmpeg bc python3)

@@ -2,6 +2,7 @@
 
 #include "command.hpp"
 #include "interruption.hpp"
+#include "launched_team.hpp"
 #include "shell_documents.hpp"
 
 #include <algorithm>
@@ -175,6 +176,10 @@ int run(int argc, char** argv) {
   for (Declared& command : commands) {
     if (!command.app->parsed()) continue;
     try {
+      const std::string& name = command.app->get_name();
+      if (is_launched() && name != "localise")
+        throw UsageError(fmt::format("mpirun has no effect on {}; expected one process{}", name,
+                                     name == "sweep" ? ", or several with --cell" : ""));
       command.arguments.finish();
       command.run();
     } catch (const UsageError& error) {

@@ -1,11 +1,18 @@
 #include "command.hpp"
+#include "launched_team.hpp"
 #include "progress_bar.hpp"
 #include "run_directory.hpp"
 #include "run_files.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <exception>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <sys/resource.h>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -24,8 +31,29 @@ struct LocaliseOptions {
   std::vector<std::string> walk;
   std::string route;
   std::string output;
+  std::string memory;
   bool save_matrices = false;
 };
+
+/// "2G", "500M" in bytes. Throws `vo::Error` for anything else.
+std::size_t bytes_of(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  const int shift = unit == "K" ? 10 : unit == "M" ? 20 : unit == "G" ? 30 : unit == "T" ? 40 : 0;
+  constexpr double kMost = 1e15;
+  if (error != std::errc() || shift == 0 || !(value > 0) || std::ldexp(value, shift) > kMost)
+    throw vo::Error("--memory " + text, "is no amount of memory", "a number with K, M, G or T, as 2G");
+  return static_cast<std::size_t>(std::ldexp(value, shift));
+}
+
+/// Keeps the process from taking more than that; what would is then refused as out of memory.
+void limit_memory(std::size_t bytes) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, bytes);
+  setrlimit(RLIMIT_DATA, &limit);
+}
 
 void print_table(const LocaliseOptions& options, const vo::Walk& walk, const place::Route& route,
                  const place::Run& run) {
@@ -46,11 +74,19 @@ void print_table(const LocaliseOptions& options, const vo::Walk& walk, const pla
   fmt::print("see {}\n", (fs::path(options.output) / "report.html").string());
 }
 
-void localise(const LocaliseOptions& options) {
-  vo::set_thread_count(options.settings.threads.value_or(0));
+/// `team`: null for one process.
+void localise(const LocaliseOptions& options, LaunchedTeam* team) {
   check_not_swapped(options.walk.front(), options.route);
-  const place::Route route =
-      place::read_route(options.route, {.view_points = options.settings.verify.value_or(0) > 0});
+  std::optional<std::size_t> memory_bytes;
+  if (!options.memory.empty()) memory_bytes = bytes_of(options.memory);
+  if (memory_bytes && team != nullptr)
+    throw vo::Error("--memory", "has no effect on several processes", "more of them");
+  if (memory_bytes) limit_memory(*memory_bytes);
+  const bool in_memory = !memory_bytes && team == nullptr;
+  place::Route route =
+      place::read_route(options.route, {.previews = in_memory,
+                                        .view_points = options.settings.verify.value_or(0) > 0,
+                                        .descriptors = in_memory});
   if (route.traverses.empty())
     throw vo::Error(options.route, "has no traverse", "a route built by `retrace build`");
   place::resolve(options.settings, {.route = &route.settings,
@@ -64,12 +100,42 @@ void localise(const LocaliseOptions& options) {
     walk = place::read(options.walk, route, options.settings, bar.callback());
   }
   for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
-  const WrittenRun written =
-      localise_into(options.output, route, options.route, walk, options.settings, options.save_matrices);
+  place::Alone alone;
+  const StoredRun stored{.route = &route,
+                         .team = team != nullptr ? static_cast<place::Team*>(team) : &alone,
+                         .launched = team,
+                         .memory_bytes = memory_bytes};
+  const WrittenRun written = localise_into(options.output, route, options.route, walk, options.settings,
+                                           options.save_matrices, in_memory ? nullptr : &stored);
   if (options.common.json) {
     fmt::print("{}", written.summary);
   } else {
     print_table(options, walk, route, written.run);
+  }
+}
+
+/// As one of several processes: the first one finds the walk and writes, the others search their parts.
+void localise_together(const LocaliseOptions& options, LaunchedTeam& team) {
+  try {
+    if (team.rank() > 0) {
+      serve_run(options.route, team, options.save_matrices);
+      return;
+    }
+    localise(options, &team);
+    team.exchange({});  // the others may end
+  } catch (const std::exception& error) {
+    team.fail(error.what());
+    if (team.rank() == 0) throw;  // one line is enough
+  }
+}
+
+void run_localise(const LocaliseOptions& options) {
+  const std::unique_ptr<LaunchedTeam> team = launched_team();
+  vo::set_thread_count(options.settings.threads.value_or(threads_of_each()));
+  if (team != nullptr) {
+    localise_together(options, *team);
+  } else {
+    localise(options, nullptr);
   }
 }
 
@@ -83,6 +149,8 @@ std::function<void()> declare_localise(Arguments& arguments) {
   arguments.flag(
       "--save-matrices", options->save_matrices,
       "write the cost matrix and the enhanced one as D.csv and DD.csv, a line for each query keyframe");
+  arguments.option("--memory", options->memory,
+                   "most memory to use, as 2G: the route's descriptors are read from the database in parts");
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral});
   arguments.common(options->common);
@@ -90,8 +158,10 @@ std::function<void()> declare_localise(Arguments& arguments) {
       "What is not given comes from the route database.\n"
       "Examples:\n"
       "  retrace localise night.mp4 --route route.db -o run\n"
-      "  retrace localise night.mp4 --route route.db -o run --sequence-length 20 --enhance local");
-  return [options] { localise(*options); };
+      "  retrace localise night.mp4 --route route.db -o run --sequence-length 20 --enhance local\n"
+      "  mpirun -n 8 retrace localise night.mp4 --route city.db -o run    (each process searches a part of "
+      "the route)");
+  return [options] { run_localise(*options); };
 }
 
 }  // namespace retrace

@@ -6,6 +6,7 @@
 #include "report/run_report.hpp"
 #include "run_directory.hpp"
 #include "settings_file.hpp"
+#include "stored_run.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,7 @@
 #include <spdlog/spdlog.h>
 
 #include <place/match/match_io.hpp>
+#include <place/match/stored_search.hpp>
 #include <place/match/walk_gaps.hpp>
 #include <place/route/geographic.hpp>
 #include <place/version.hpp>
@@ -252,9 +254,20 @@ const std::vector<std::string> kRunFiles{"matches.csv",    "trajectory.tum", "tr
                                          kRunDataFile,     "config.toml"};
 
 WrittenRun localise_into(const fs::path& folder, const place::Route& route, const std::string& route_path,
-                         const vo::Walk& walk, const place::Settings& settings, bool whole_matrices) {
+                         const vo::Walk& walk, const place::Settings& settings, bool whole_matrices,
+                         const StoredRun* stored) {
   MatrixKeeper keeper(route, whole_matrices);
-  place::Run run = place::localise(route, walk, settings, std::ref(keeper));
+  std::optional<place::StoredSearch> search;
+  if (stored != nullptr) search.emplace(route_path, *stored->team, stored->memory_bytes, std::ref(keeper));
+  place::Run run = place::localise(route, walk, settings, std::ref(keeper), search ? &*search : nullptr);
+  ordered_json shards = ordered_json::array();
+  if (search) {
+    search->finish();
+    const LaunchedTeam* const launched = stored->launched;
+    shards = shards_of_team(*stored->team, keeper, search->bytes_read(),
+                            launched != nullptr ? launched->bytes_sent() : 0);
+    read_matched_previews(route_path, run.matches, *stored->route);
+  }
   for (const std::string& warning : run.sampled.warnings) spdlog::warn("{}", warning);
   for (const std::string& warning : run.warnings) spdlog::warn("{}", warning);
   if (run.settings.accept_probability && run.probability_source == place::ProbabilitySource::kNone)
@@ -263,7 +276,10 @@ WrittenRun localise_into(const fs::path& folder, const place::Route& route, cons
   if (!run.drift.why_not.empty() && place::has_poses(route) && run.settings.correct_drift.value_or(false))
     spdlog::warn("drift is not corrected, trajectory.tum holds poses of matched places: {}",
                  run.drift.why_not);
-  std::string text = summary(route, route_path, walk, run).dump(2) + "\n";
+  ordered_json about = summary(route, route_path, walk, run);
+  about["processes"] = stored != nullptr ? stored->team->size() : 1;
+  if (shards.size() > 1) about["shards"] = std::move(shards);
+  std::string text = about.dump(2) + "\n";
   StagedFiles staged(folder);
   vo::write_file(staged.path() / "matches.csv", place::to_csv(run.matches));
   put_trajectory(run.drift, route, run.matches, staged.path(), walk.start_utc_s);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "report/kept_matrices.hpp"
+#include "stored_run.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -23,10 +24,11 @@ struct WrittenRun {
 
 /// Finds a walk on a route (`place::localise`) and writes all of a run into an existing folder: matches.csv,
 /// the trajectories, summary.json, config.toml, the report and the cost matrix. `whole_matrices`: D.csv and
-/// DD.csv too. Warnings go to the log.
+/// DD.csv too. `stored`: the route was read without descriptors.
+/// Warnings go to the log.
 WrittenRun localise_into(const std::filesystem::path& folder, const place::Route& route,
                          const std::string& route_path, const vo::Walk& walk, const place::Settings& settings,
-                         bool whole_matrices = false);
+                         bool whole_matrices = false, const StoredRun* stored = nullptr);
 
 /// Writes trajectory.tum: the corrected poses, or else those of accepted matches. With a correction also
 /// trajectory_odometry.tum and trajectory.csv. If the route is surveyed and has an origin, trajectory.geojson

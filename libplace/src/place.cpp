@@ -180,11 +180,16 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
 }
 
 Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
-             const SearchCallback& callback) {
+             const SearchCallback& callback, TraverseSearch* search) {
   const ResolveContext context = on(route, Purpose::kLocalise);
   Run run;
   run.settings = resolve(settings, context);
-  const StageOptions options = stage_options(run.settings, follows_steps(run.settings, context));
+  StageOptions options = stage_options(run.settings, follows_steps(run.settings, context));
+  if (search != nullptr) {
+    search->prepare(run.settings, route);
+    options.sampling.scale_costs = [&](const Descriptors& query) { return search->scale_costs(0, query); };
+    options.matching.traverse_search = search;
+  }
   check_read_with(options, walk);
   run.sampled = sample_walk(walk, options.sampling, &route);
   RouteMatches found = match_on_route(route, walk.time_s, run.sampled, options.matching, callback);

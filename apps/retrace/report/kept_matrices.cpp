@@ -1,6 +1,8 @@
 #include "kept_matrices.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include <vo/base/parallel.hpp>
@@ -26,13 +28,17 @@ KeptMatrix empty_matrix(std::size_t queries, std::size_t references, bool whole)
 
 }  // namespace
 
-MatrixKeeper::MatrixKeeper(const place::Route& route, bool whole) : route_(route), whole_(whole) {}
+MatrixKeeper::MatrixKeeper(const place::Route& route, bool whole) : route_(&route), whole_(whole) {}
+MatrixKeeper::MatrixKeeper(bool whole) : whole_(whole) {}
 
 void MatrixKeeper::operator()(const place::SearchPart& part) {
-  while (matrices_.size() <= part.traverse) {
-    const place::Traverse& traverse = route_.traverses[matrices_.size()];
-    matrices_.push_back(empty_matrix(part.costs.queries, traverse.keyframes.size(), whole_));
-  }
+  take(part, route_->traverses[part.traverse].keyframes.size());
+}
+
+void MatrixKeeper::take(const place::SearchPart& part, std::size_t keyframes) {
+  if (matrices_.size() <= part.traverse) matrices_.resize(part.traverse + 1);
+  if (matrices_[part.traverse].cost.values.empty())
+    matrices_[part.traverse] = empty_matrix(part.costs.queries, keyframes, whole_);
   KeptMatrix& kept = matrices_[part.traverse];
   place::CostMatrix& matrix = part.enhanced ? kept.enhanced : kept.cost;
   vo::parallel_for(matrix.queries, [&](std::size_t cell_row) {
@@ -49,6 +55,26 @@ void MatrixKeeper::operator()(const place::SearchPart& part) {
       }
     }
   });
+}
+
+void MatrixKeeper::join(place::Team& team) {
+  std::vector<float> mine;  // of all traverses, one after the other: those of each member have one size
+  for (const KeptMatrix& kept : matrices_)
+    for (const place::CostMatrix* const matrix : {&kept.cost, &kept.enhanced})
+      mine.insert(mine.end(), matrix->values.begin(), matrix->values.end());
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(mine.data());
+  for (const place::Team::Message& other : team.collect({bytes, mine.size() * sizeof(float)})) {
+    std::size_t at = 0;
+    for (KeptMatrix& kept : matrices_) {
+      for (place::CostMatrix* const matrix : {&kept.cost, &kept.enhanced}) {
+        for (float& cell : matrix->values) {
+          float value = 0;
+          std::memcpy(&value, other.data() + sizeof value * at++, sizeof value);
+          cell = std::min(cell, value);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace retrace

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <place/match/route_matching.hpp>
+#include <place/match/team.hpp>
 
 namespace retrace {
 
@@ -20,14 +21,20 @@ struct KeptMatrix {
 class MatrixKeeper {
  public:
   MatrixKeeper(const place::Route& route, bool whole);
+  /// Of traverses whose keyframes come with their parts.
+  explicit MatrixKeeper(bool whole);
 
   void operator()(const place::SearchPart& part);
+  void take(const place::SearchPart& part, std::size_t keyframes);
+
+  /// Gives the first member of a team the parts that all of them took.
+  void join(place::Team& team);
 
   /// One for each traverse that was searched.
   [[nodiscard]] const std::vector<KeptMatrix>& matrices() const { return matrices_; }
 
  private:
-  const place::Route& route_;
+  const place::Route* route_ = nullptr;
   bool whole_;
   std::vector<KeptMatrix> matrices_;
 };

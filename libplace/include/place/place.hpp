@@ -75,11 +75,12 @@ struct Run {
 };
 
 /// Finds a walk on a route: keyframes (`sample_walk`), matches (`match_on_route`) and, if the route has
-/// poses, the trajectory (`query_trajectory`). `callback`: receives the cost matrices. Throws `vo::Error` for
+/// poses, the trajectory (`query_trajectory`). `callback`: receives the cost matrices. `search`: for a
+/// route that was read without descriptors (`StoredSearch`). Throws `vo::Error` for
 /// settings that are not compatible, a walk without motion, a traverse shorter than the sequence;
 /// `std::invalid_argument` for a route without traverses or a walk that was read with other settings.
 Run localise(const Route& route, const vo::Walk& walk, const Settings& settings = {},
-             const SearchCallback& callback = {});
+             const SearchCallback& callback = {}, TraverseSearch* search = nullptr);
 
 /// `evaluate` for the run's matches.
 RunEvaluation evaluate(const Run& run, const GroundTruth& truth, const Tolerance& tolerance);

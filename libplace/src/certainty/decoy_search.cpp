@@ -1,5 +1,7 @@
 #include "place/certainty/decoy_search.hpp"
 
+#include "certainty/part_certainty.hpp"
+
 #include <algorithm>
 
 namespace place {
@@ -18,18 +20,33 @@ SearchOptions reversed(SearchOptions options, std::size_t queries) {
   return options;
 }
 
+CostMatrix backwards_of(const CostMatrix& enhanced) {
+  CostMatrix backwards = make_cost_matrix(enhanced.queries, enhanced.references);
+  for (std::size_t q = 0; q < enhanced.queries; ++q)
+    std::ranges::copy(enhanced.row(enhanced.queries - 1 - q), backwards.row(q).begin());
+  return backwards;
+}
+
+std::vector<double> scores_of(const std::vector<SequenceMatch>& matches) {
+  std::vector<double> scores;
+  for (const SequenceMatch& match : matches)
+    if (match.reference) scores.push_back(match.score);
+  return scores;
+}
+
 }  // namespace
 
 std::vector<double> decoy_scores(const CostMatrix& enhanced, const SearchMethod& method,
                                  const SearchOptions& options) {
-  CostMatrix backwards = make_cost_matrix(enhanced.queries, enhanced.references);
-  for (std::size_t q = 0; q < enhanced.queries; ++q)
-    std::ranges::copy(enhanced.row(enhanced.queries - 1 - q), backwards.row(q).begin());
-  std::vector<double> scores;
-  for (const SequenceMatch& match : method.search(backwards, reversed(options, enhanced.queries)).matches) {
-    if (match.reference) scores.push_back(match.score);
-  }
-  return scores;
+  return scores_of(method.search(backwards_of(enhanced), reversed(options, enhanced.queries)).matches);
+}
+
+std::vector<double> decoy_scores_part(const MatrixPart& enhanced, const SearchMethod& method,
+                                      const SearchOptions& options, Team& team) {
+  const CostMatrix backwards = backwards_of(*enhanced.costs);
+  MatrixPart part = enhanced;
+  part.costs = &backwards;
+  return scores_of(method.search_part(part, reversed(options, enhanced.queries()), team).matches);
 }
 
 }  // namespace place

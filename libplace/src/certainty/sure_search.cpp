@@ -1,10 +1,13 @@
 #include "place/certainty/sure_search.hpp"
 
+#include "certainty/part_certainty.hpp"
 #include "place/certainty/decoy_search.hpp"
 #include "place/certainty/place_spread.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <stdexcept>
 
 namespace place {
 namespace {
@@ -13,14 +16,11 @@ double probability_of(double log_odds) {
   return 1 / (1 + std::exp(-log_odds));
 }
 
-}  // namespace
-
-SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
-                          const SearchOptions& options) {
-  SearchResult found = method.search(enhanced, options);
+/// What was found, with its certainty. `decoys`: their scores, when they are needed.
+SureMatches with_certainty(const SearchResult& found, const std::vector<std::optional<double>>& spread,
+                           const SearchMethod& method, const std::function<std::vector<double>()>& decoys) {
   SureMatches result;
   result.looked_at = found.looked_at;
-  const auto spread = place_spread(enhanced, found.matches, options.sequence.uniqueness_window);
   std::vector<double> scores;
   for (std::size_t q = 0; q < found.matches.size(); ++q) {
     if (found.matches[q].reference) scores.push_back(static_cast<double>(found.matches[q].score));
@@ -30,8 +30,7 @@ SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method
 
   MatchProbabilities probabilities;
   if (scores.size() >= kFewestScores) {
-    probabilities = match_probabilities(scores, decoy_scores(enhanced, method, options),
-                                        {.decoy_quantile = method.decoy_quantile});
+    probabilities = match_probabilities(scores, decoys(), {.decoy_quantile = method.decoy_quantile});
   } else {
     probabilities.status = ProbabilityStatus::kFewMatches;
   }
@@ -53,6 +52,25 @@ SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method
     if (match.match.reference) match.probability = *next++;
   }
   return result;
+}
+
+}  // namespace
+
+SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
+                          const SearchOptions& options) {
+  const SearchResult found = method.search(enhanced, options);
+  return with_certainty(found, place_spread(enhanced, found.matches, options.sequence.uniqueness_window),
+                        method, [&] { return decoy_scores(enhanced, method, options); });
+}
+
+SureMatches search_surely_part(const MatrixPart& enhanced, const SearchMethod& method,
+                               const SearchOptions& options, Team& team) {
+  if (method.search_part == nullptr)
+    throw std::invalid_argument("search_surely: a method that a team can do expected");
+  const SearchResult found = method.search_part(enhanced, options, team);
+  return with_certainty(found,
+                        place_spread_part(enhanced, found.matches, options.sequence.uniqueness_window, team),
+                        method, [&] { return decoy_scores_part(enhanced, method, options, team); });
 }
 
 }  // namespace place

@@ -1,5 +1,7 @@
 #include "place/match/candidates.hpp"
 
+#include "place/match/team.hpp"
+
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -45,50 +47,17 @@ std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t of) {
   return indices;
 }
 
-/// The first principal components of images: a projection from pooled pixels.
-struct Components {
-  std::size_t pool = 1;
-  Eigen::RowVectorXf mean;
-  Eigen::MatrixXf axes;  ///< one column for each
-};
-
-Components principal_components(const vo::ImageStack& images, const CandidateOptions& options) {
-  const auto pool = static_cast<std::size_t>(options.pool_px);
-  Rows rows = pooled(images, 0, images.size(), pool);
-  Components components{.pool = pool, .mean = rows.colwise().mean(), .axes = {}};
-  rows.rowwise() -= components.mean;
-  const Eigen::MatrixXf covariance = rows.transpose() * rows;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(covariance);
-  components.axes =
-      solver.eigenvectors().rightCols(std::min<Eigen::Index>(options.dimensions, covariance.cols()));
-  return components;
-}
-
-Rows project(const vo::ImageStack& images, const Components& components) {
-  constexpr std::size_t kBlock = 1024;
-  Rows projected(static_cast<Eigen::Index>(images.size()), components.axes.cols());
-  vo::parallel_for((images.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-    const std::size_t first = block * kBlock, count = std::min(kBlock, images.size() - first);
-    Rows rows = pooled(images, first, count, components.pool);
-    rows.rowwise() -= components.mean;
-    projected.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).noalias() =
-        rows * components.axes;
-  });
-  return projected;
-}
-
-/// For each query, the indices of its `count` nearest references.
-std::vector<std::size_t> nearest(Rows& queries, Rows& references, std::size_t count,
-                                 const CandidateOptions& options) {
-  const auto matrix = [](Rows& rows, std::size_t first, std::size_t number) {
-    return flann::Matrix<float>(rows.row(static_cast<Eigen::Index>(first)).data(), number,
-                                static_cast<std::size_t>(rows.cols()));
+/// For each query, the indices of its `count` nearest references; rows of `width` values.
+std::vector<std::size_t> nearest(std::vector<float>& queries, std::vector<float>& references,
+                                 std::size_t width, std::size_t count, const CandidateOptions& options) {
+  const auto matrix = [&](std::vector<float>& rows, std::size_t first, std::size_t number) {
+    return flann::Matrix<float>(rows.data() + first * width, number, width);
   };
   // The single tree: the randomised ones cannot be seeded and give a different result every time.
-  flann::KDTreeSingleIndex<flann::L2<float>> index(
-      matrix(references, 0, static_cast<std::size_t>(references.rows())), flann::KDTreeSingleIndexParams());
+  flann::KDTreeSingleIndex<flann::L2<float>> index(matrix(references, 0, references.size() / width),
+                                                   flann::KDTreeSingleIndexParams());
   index.buildIndex();
-  const auto total = static_cast<std::size_t>(queries.rows());
+  const std::size_t total = queries.size() / width;
   std::vector<std::size_t> found(total * count);
   constexpr std::size_t kBlock = 16;
   vo::parallel_for((total + kBlock - 1) / kBlock, [&](std::size_t block) {
@@ -103,26 +72,83 @@ std::vector<std::size_t> nearest(Rows& queries, Rows& references, std::size_t co
   return found;
 }
 
+void check_candidate_options(const CandidateOptions& options) {
+  if (options.pool_px < 1 || options.dimensions < 1 || options.sample < 1 || !(options.slack >= 0) ||
+      options.shortlist < 1 || options.run < 1 || options.stretches < 1 || options.margin < 0) {
+    throw std::invalid_argument("candidates: counts of at least 1, slack and margin of at least 0 expected");
+  }
+}
+
 }  // namespace
+
+/// The first principal components of images: a projection from pooled pixels.
+struct CandidateFinder::Components {
+  std::size_t pool = 1;
+  Eigen::RowVectorXf mean;
+  Eigen::MatrixXf axes;  ///< one column for each
+};
+
+CandidateFinder::CandidateFinder(const vo::ImageStack& sample, const CandidateOptions& options) {
+  check_candidate_options(options);
+  const auto pool = static_cast<std::size_t>(options.pool_px);
+  Rows rows = pooled(sample, 0, sample.size(), pool);
+  Components components{.pool = pool, .mean = rows.colwise().mean(), .axes = {}};
+  rows.rowwise() -= components.mean;
+  const Eigen::MatrixXf covariance = rows.transpose() * rows;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(covariance);
+  components.axes =
+      solver.eigenvectors().rightCols(std::min<Eigen::Index>(options.dimensions, covariance.cols()));
+  components_ = std::make_unique<const Components>(std::move(components));
+}
+CandidateFinder::~CandidateFinder() = default;
+CandidateFinder::CandidateFinder(CandidateFinder&&) noexcept = default;
+CandidateFinder& CandidateFinder::operator=(CandidateFinder&&) noexcept = default;
+
+std::size_t CandidateFinder::dimensions() const {
+  return static_cast<std::size_t>(components_->axes.cols());
+}
+
+std::vector<float> CandidateFinder::project(const vo::ImageStack& images) const {
+  constexpr std::size_t kBlock = kShardBlock;  // so that a part's products are those of the whole
+  std::vector<float> values(images.size() * dimensions());
+  Eigen::Map<Rows> projected(values.data(), static_cast<Eigen::Index>(images.size()),
+                             components_->axes.cols());
+  vo::parallel_for((images.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+    const std::size_t first = block * kBlock, count = std::min(kBlock, images.size() - first);
+    Rows rows = pooled(images, first, count, components_->pool);
+    rows.rowwise() -= components_->mean;
+    projected.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).noalias() =
+        rows * components_->axes;
+  });
+  return values;
+}
+
+std::vector<std::size_t> candidate_sample(std::size_t references, const CandidateOptions& options) {
+  return evenly_spaced(std::min(static_cast<std::size_t>(options.sample), references), references);
+}
+
+bool all_are_candidates(std::size_t references, const CandidateOptions& options) {
+  return references <= static_cast<std::size_t>(options.sample);
+}
 
 std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::ImageStack& references,
                                     const CandidateOptions& options) {
   if (queries.width != references.width || queries.height != references.height) {
     throw std::invalid_argument("candidates: query and reference descriptors differ in size");
   }
-  if (options.pool_px < 1 || options.dimensions < 1 || options.sample < 1 || !(options.slack >= 0) ||
-      options.shortlist < 1 || options.run < 1 || options.stretches < 1 || options.margin < 0) {
-    throw std::invalid_argument("candidates: counts of at least 1, slack and margin of at least 0 expected");
-  }
-  const std::size_t total = references.size();
-  const auto sampled = static_cast<std::size_t>(options.sample);
-  const std::vector<std::size_t> sample = evenly_spaced(std::min(sampled, total), total);
-  if (total <= sampled || queries.empty()) return sample;
+  check_candidate_options(options);
+  const std::vector<std::size_t> sample = candidate_sample(references.size(), options);
+  if (all_are_candidates(references.size(), options) || queries.empty()) return sample;
+  const CandidateFinder finder(vo::select(references, sample), options);
+  return finder.find(queries, finder.project(references), options);
+}
 
-  const Components components = principal_components(vo::select(references, sample), options);
-  Rows query_rows = project(queries, components), reference_rows = project(references, components);
+std::vector<std::size_t> CandidateFinder::find(const vo::ImageStack& queries, std::vector<float> references,
+                                               const CandidateOptions& options) const {
+  const std::size_t total = references.size() / dimensions();
+  std::vector<float> of_queries = project(queries);
   const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(options.shortlist), total);
-  const std::vector<std::size_t> shortlists = nearest(query_rows, reference_rows, count, options);
+  const std::vector<std::size_t> shortlists = nearest(of_queries, references, dimensions(), count, options);
 
   // Each run of queries votes for the block where its first query would be at equal pace. Votes for
   // neighbouring blocks count together, as a place may lie at their border.
@@ -130,7 +156,7 @@ std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::Ima
              margin = static_cast<std::ptrdiff_t>(options.margin);
   const auto queries_total = static_cast<std::ptrdiff_t>(queries.size());
   std::vector<bool> kept(total, false);
-  for (const std::size_t i : sample) kept[i] = true;
+  for (const std::size_t i : candidate_sample(total, options)) kept[i] = true;
   for (std::ptrdiff_t first = 0; first < queries_total; first += run) {
     std::map<std::ptrdiff_t, int> votes;
     for (std::ptrdiff_t q = first; q < std::min(queries_total, first + run); ++q) {

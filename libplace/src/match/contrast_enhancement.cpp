@@ -1,5 +1,8 @@
 #include "place/match/contrast_enhancement.hpp"
 
+#include "match/messages.hpp"
+#include "match/moments.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,36 +14,8 @@
 namespace place {
 namespace {
 
-/// Below this share of the mean square, a deviation is rounding error and counts as none (float inputs carry
-/// 24 bits).
-constexpr double kRounding = 1e-12;
-
-struct Moments {
-  double sum = 0;
-  double square = 0;
-
-  void add(const Moments& more) {
-    sum += more.sum;
-    square += more.square;
-  }
-  void add(double value) {
-    sum += value;
-    square += value * value;
-  }
-  void remove(double value) {
-    sum -= value;
-    square -= value * value;
-  }
-  /// 1 / deviation over `count` values, with `count - freedom` in the variance; 0 where there is none.
-  [[nodiscard]] double inverse_deviation(double count, double freedom) const {
-    const double spread = square - sum * (sum / count);
-    if (count <= freedom || spread <= kRounding * square) return 0;
-    return 1 / std::sqrt(spread / (count - freedom));
-  }
-};
-
 /// Eight sums of every eighth value, which compilers vectorise, then their total.
-Moments moments_of(std::span<const float> values) {
+CostMoments cost_moments_of(std::span<const float> values) {
   constexpr std::size_t kLanes = 8;
   std::array<double, kLanes> sum{}, square{};
   const auto add = [&](std::size_t k, double value) {
@@ -59,7 +34,7 @@ Moments moments_of(std::span<const float> values) {
 /// does not depend on where the row begins.
 void enhance_locally(std::span<float> row, std::size_t half) {
   const std::vector<float> raw(row.begin(), row.end());
-  Moments window;
+  CostMoments window;
   std::size_t first = 0, last = 0;  // the window is [first, last)
   for (std::size_t r = 0; r < raw.size(); ++r) {
     if (r % ContrastEnhancer::kAlign == 0) {
@@ -86,15 +61,39 @@ float standard_score(float value, double mean, double inverse_deviation) {
 
 }  // namespace
 
+/// Sums of every query's costs, block by block.
+struct ContrastEnhancer::Survey {
+  struct Row {
+    std::vector<CostMoments> of_query;
+
+    Row& operator+=(const Row& more) {
+      for (std::size_t q = 0; q < of_query.size(); ++q) of_query[q].add(more.of_query[q]);
+      return *this;
+    }
+  };
+  TreeSum<Row> sum;
+};
+
 ContrastEnhancer::ContrastEnhancer(std::size_t queries, std::size_t references,
                                    const ContrastEnhancementOptions& options)
-    : queries_(queries), references_(references), options_(options) {
+    : ContrastEnhancer(queries, references, options, {0, references}, 0) {
+  alone_ = true;
+}
+
+ContrastEnhancer::ContrastEnhancer(std::size_t queries, std::size_t references,
+                                   const ContrastEnhancementOptions& options, const Shard& own,
+                                   std::size_t first)
+    : queries_(queries),
+      references_(references),
+      options_(options),
+      begin_(own.begin - first),
+      end_(own.end - first),
+      surveyed_(begin_) {
   if (options.window < 2) throw std::invalid_argument("enhance_contrast: window must be >= 2");
   if (!(options.prior_queries >= 0))
     throw std::invalid_argument("enhance_contrast: prior_queries must be >= 0");
   if (options.method != Enhancement::kStandardise) return;
-  mean_.resize(queries);
-  inverse_deviation_.resize(queries);
+  survey_ = std::make_shared<Survey>(Survey{TreeSum<Survey::Row>(own.begin / kPart)});
 }
 
 std::size_t ContrastEnhancer::margin() const {
@@ -104,27 +103,31 @@ std::size_t ContrastEnhancer::margin() const {
 
 void ContrastEnhancer::survey(const ConstCosts& costs, std::size_t count) {
   const std::size_t first = surveyed_, past = first + count;
-  if (past > references_ || (past < references_ && count % kPart != 0) || costs.queries != queries_ ||
+  if (past > end_ || (past < end_ && count % kPart != 0) || costs.queries != queries_ ||
       costs.first_reference + std::min(first, margin()) != first ||
-      costs.first_reference + costs.references != std::min(references_, past + margin())) {
+      costs.first_reference + costs.references != std::min(end_, past + margin())) {
     throw std::invalid_argument(
         "ContrastEnhancer: parts of the reference by all queries, in order, expected");
   }
   surveyed_ = past;
   const std::size_t before = first - costs.first_reference;
   if (options_.method == Enhancement::kStandardise) {
-    vo::parallel_for(queries_, [&](std::size_t q) {
-      Moments moments{mean_[q], inverse_deviation_[q]};
-      for (std::size_t r = 0; r < count; r += kPart)
-        moments.add(moments_of(costs.row(q).subspan(r, std::min(kPart, count - r))));
-      mean_[q] = moments.sum;
-      inverse_deviation_[q] = moments.square;
-      if (past < references_) return;
-      mean_[q] = moments.sum / static_cast<double>(references_);
-      inverse_deviation_[q] = moments.inverse_deviation(static_cast<double>(references_), 0);
-    });
+    constexpr std::size_t kTogether = 64;  // blocks whose sums are kept at a time
+    for (std::size_t from = 0; from < count; from += kTogether * kPart) {
+      const std::size_t blocks = std::min(kTogether, (count - from + kPart - 1) / kPart);
+      std::vector<Survey::Row> rows(blocks, Survey::Row{std::vector<CostMoments>(queries_)});
+      vo::parallel_for(queries_, [&](std::size_t q) {
+        for (std::size_t i = 0; i < blocks; ++i) {
+          const std::size_t r = from + i * kPart;
+          rows[i].of_query[q] = cost_moments_of(costs.row(q).subspan(before + r, std::min(kPart, count - r)));
+        }
+      });
+      for (Survey::Row& row : rows) survey_->sum.add(std::move(row));
+    }
+    if (alone_ && past == references_) standardise_by(*survey_);
     return;
   }
+  ready_ = past == end_;
   std::vector<CostRange> ranges(queries_);
   vo::parallel_for(queries_, [&](std::size_t q) {
     if (options_.method == Enhancement::kNone) {
@@ -142,8 +145,41 @@ void ContrastEnhancer::survey(const ConstCosts& costs, std::size_t count) {
   }
 }
 
+void ContrastEnhancer::standardise_by(const Survey& survey) {
+  const Survey::Row total = survey.sum.total();
+  for (std::size_t q = 0; q < total.of_query.size(); ++q) {
+    mean_.push_back(total.of_query[q].sum / static_cast<double>(references_));
+    inverse_deviation_.push_back(total.of_query[q].inverse_deviation(static_cast<double>(references_), 0));
+  }
+  survey_.reset();
+  ready_ = true;
+}
+
+void ContrastEnhancer::share(Team& team) {
+  if (options_.method != Enhancement::kStandardise) ready_ = true;
+  if (ready_) return;
+  if (surveyed_ != end_) throw std::invalid_argument("ContrastEnhancer: a survey of the shard expected");
+  MessageWriter message;
+  message.put(survey_->sum.nodes().size());
+  for (const auto& node : survey_->sum.nodes()) {
+    message.put(node.index);
+    message.put(node.level);
+    message.put_all(node.sum.of_query);
+  }
+  Survey whole;
+  for (const Team::Message& received : team.exchange(message.bytes())) {
+    MessageReader reader(received);
+    for (auto left = reader.get<std::size_t>(); left > 0; --left) {
+      const auto index = reader.get<std::uint64_t>(), level = reader.get<std::uint64_t>();
+      whole.sum.append({index, level, {reader.get_all<CostMoments>()}});
+    }
+  }
+  standardise_by(whole);
+}
+
 void ContrastEnhancer::enhance(const Costs& costs) const {
-  if (costs.queries != queries_ || costs.first_reference % kAlign != 0 || surveyed_ != references_) {
+  if (costs.queries != queries_ || costs.first_reference % kAlign != 0 ||
+      !(ready_ || queries_ == 0 || references_ == 0)) {
     throw std::invalid_argument("ContrastEnhancer: a survey of all, and an aligned part, expected");
   }
   if (options_.method == Enhancement::kNone) return;
@@ -169,7 +205,7 @@ void ContrastEnhancer::enhance(const Costs& costs) const {
     const auto queries = static_cast<double>(queries_);
     const double share = queries / (queries + options_.prior_queries);
     for (std::size_t r = 0; r < count; ++r) {
-      const Moments moments{mean[r], inverse[r]};
+      const CostMoments moments{mean[r], inverse[r]};
       mean[r] = share * moments.sum / queries;
       inverse[r] = drawn_to_one(moments.inverse_deviation(queries, 0), share);
     }

@@ -61,15 +61,19 @@ std::vector<std::size_t> candidates(const Descriptors& queries, const Descriptor
     throw std::invalid_argument("candidates: descriptors of one form expected");
   if (const auto* images = std::get_if<vo::ImageStack>(&queries))
     return candidates(*images, std::get<vo::ImageStack>(references), options);
-  if (const auto* stack = std::get_if<ColumnStack>(&queries)) {
-    CandidateOptions of_channels = options;
-    of_channels.pool_px = 1;
-    return candidates(leading_channels(*stack), leading_channels(std::get<ColumnStack>(references)),
-                      of_channels);
-  }
+  CandidateOptions of_pictures = options;
+  if (const auto pictures = candidate_pictures(queries, of_pictures))
+    return candidates(*pictures, *candidate_pictures(references, of_pictures), of_pictures);
   std::vector<std::size_t> all(count_of(references));
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
+}
+
+std::optional<vo::ImageStack> candidate_pictures(const Descriptors& descriptors, CandidateOptions& options) {
+  if (const auto* images = std::get_if<vo::ImageStack>(&descriptors)) return *images;
+  if (!std::holds_alternative<ColumnStack>(descriptors)) return {};
+  options.pool_px = 1;
+  return leading_channels(std::get<ColumnStack>(descriptors));
 }
 
 }  // namespace place

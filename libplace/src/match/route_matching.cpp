@@ -66,17 +66,6 @@ std::vector<double> keyframe_steps(const SampledWalk& sampled, const Traverse& t
   return steps;
 }
 
-/// The gaps of a traverse, `gaps` by keyframe, as gaps of the compared columns; there are also gaps between
-/// the stretches of a shortlist, where the traverse continues elsewhere.
-std::vector<std::size_t> gaps_between(const std::vector<std::size_t>& columns,
-                                      const std::vector<std::size_t>& gaps) {
-  std::vector<std::size_t> among;
-  for (std::size_t k = 1; k < columns.size(); ++k) {
-    if (columns[k] != columns[k - 1] + 1 || std::ranges::binary_search(gaps, columns[k])) among.push_back(k);
-  }
-  return among;
-}
-
 /// Metres along the route between a keyframe's neighbours, per keyframe; none unless surveyed.
 std::optional<double> local_spacing_m(const Traverse& traverse, std::size_t keyframe) {
   const std::size_t before = keyframe - std::min<std::size_t>(keyframe, 1);
@@ -133,6 +122,15 @@ std::size_t take_surest(const std::vector<SureMatch>& found, const Traverse& tra
 
 }  // namespace
 
+std::vector<std::size_t> gaps_between(const std::vector<std::size_t>& columns,
+                                      const std::vector<std::size_t>& gaps) {
+  std::vector<std::size_t> among;
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    if (columns[k] != columns[k - 1] + 1 || std::ranges::binary_search(gaps, columns[k])) among.push_back(k);
+  }
+  return among;
+}
+
 SearchOptions search_on_route(const Traverse& traverse, std::span<const double> time_s,
                               const SampledWalk& sampled, const RouteMatchingOptions& options) {
   SearchOptions search{.sequence = options.search,
@@ -170,7 +168,7 @@ RouteMatches match_on_route(const Route& route, std::span<const double> time_s, 
 
   const SearchMethod& method = search_method(options.method);
   std::vector<TraverseCosts> costs;
-  for (std::size_t i = 0; i < route.traverses.size(); ++i)
+  for (std::size_t i = 0; i < route.traverses.size() && options.traverse_search == nullptr; ++i)
     costs.push_back(costs_against(sampled, route.traverses[i], i, options, lengths[i], callback));
   if (options.fuse_traverses && costs.size() > 1) {
     std::vector<CostMatrix> joined = joined_traverses(route, costs, options, result.warnings);
@@ -179,11 +177,17 @@ RouteMatches match_on_route(const Route& route, std::span<const double> time_s, 
   std::size_t most_taken = 0;
   for (std::size_t i = 0; i < route.traverses.size(); ++i) {
     SearchOptions search = search_on_route(route.traverses[i], time_s, sampled, options);
-    const std::vector<std::size_t>& columns = costs[i].columns;
-    search.gaps.reference = gaps_between(columns, search.gaps.reference);
-    const SureMatches found = search_surely(costs[i].enhanced, method, search);
+    TraverseSearch::Found searched;
+    if (options.traverse_search != nullptr) {
+      searched = options.traverse_search->search(i, sampled, search);
+    } else {
+      searched.columns = std::move(costs[i].columns);
+      search.gaps.reference = gaps_between(searched.columns, search.gaps.reference);
+      searched.matches = search_surely(costs[i].enhanced, method, search);
+    }
+    const SureMatches& found = searched.matches;
     const std::size_t taken =
-        take_surest(found.matches, route.traverses[i], columns, lengths[i], options, result.matches);
+        take_surest(found.matches, route.traverses[i], searched.columns, lengths[i], options, result.matches);
     if (taken < most_taken) continue;
     most_taken = taken;
     result.probability_source = found.source;

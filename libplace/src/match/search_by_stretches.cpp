@@ -13,9 +13,9 @@ CostMatrix part_of(const CostMatrix& whole, Stretch queries, Stretch references)
   return part;
 }
 
-/// Joins the matches of two stretches of the reference for a query. A match's score is the difference to the
-/// cost `elsewhere`.
-SequenceMatch join(const SequenceMatch& a, const SequenceMatch& b, std::size_t window) {
+}  // namespace
+
+SequenceMatch join_stretches(const SequenceMatch& a, const SequenceMatch& b, std::size_t window) {
   if (!a.reference) return b;
   if (!b.reference) return a;
   const SequenceMatch& best = b.cost < a.cost ? b : a;
@@ -25,8 +25,6 @@ SequenceMatch join(const SequenceMatch& a, const SequenceMatch& b, std::size_t w
   if (apart > window) joined.score = std::min(best.score, other.cost - best.cost);
   return joined;
 }
-
-}  // namespace
 
 std::vector<SequenceMatch> search_by_stretches(
     const CostMatrix& enhanced, const SequenceSearchOptions& options, const WalkGaps& gaps,
@@ -43,7 +41,7 @@ std::vector<SequenceMatch> search_by_stretches(
         SequenceMatch match = found[q];
         if (match.reference) *match.reference += of_reference.begin;
         SequenceMatch& joined = matches[of_query.begin + q];
-        joined = join(joined, match, window);
+        joined = join_stretches(joined, match, window);
       }
     }
   }

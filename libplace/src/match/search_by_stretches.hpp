@@ -4,6 +4,7 @@
 #include "place/match/sequence_search.hpp"
 #include "place/match/walk_gaps.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -16,5 +17,9 @@ namespace place {
 std::vector<SequenceMatch> search_by_stretches(
     const CostMatrix& enhanced, const SequenceSearchOptions& options, const WalkGaps& gaps,
     const std::function<std::vector<SequenceMatch>(const CostMatrix&)>& search);
+
+/// Joins the matches of two stretches of the reference for a query. A match's score is the difference to the
+/// cost elsewhere; `window`: `SequenceSearchOptions::uniqueness_window`.
+SequenceMatch join_stretches(const SequenceMatch& a, const SequenceMatch& b, std::size_t window);
 
 }  // namespace place

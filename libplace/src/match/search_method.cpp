@@ -1,11 +1,11 @@
 #include "place/match/search_method.hpp"
 
+#include "match/part_searches.hpp"
 #include "match/search_by_stretches.hpp"
 #include "place/match/search_cone.hpp"
 #include "place/match/search_graph.hpp"
 #include "place/match/search_hybrid.hpp"
 #include "place/match/search_path.hpp"
-#include "place/match/sequence_searcher.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,24 +25,14 @@ SearchResult by_stretches(const CostMatrix& enhanced, const SearchOptions& optio
   return {.matches = search_by_stretches(enhanced, options.sequence, options.gaps, search)};
 }
 
-/// Lines, centred on the mean of all costs in every stretch, so that stretches can be compared.
 SearchResult search_straight_lines(const CostMatrix& enhanced, const SearchOptions& options) {
-  const CostRange range = range_of(enhanced.values);
-  const auto search = [&](const CostMatrix& part) {
-    SequenceSearcher searcher(part.queries, part.references, range, options.sequence);
-    searcher.push(block_of(part), part.references);
-    return searcher.finish();
-  };
-  SearchResult result{.matches = search_by_stretches(enhanced, options.sequence, options.gaps, search)};
-  if (options.sequence.score == MatchScore::kRatio && !enhanced.values.empty()) {
-    const float least = *std::ranges::min_element(enhanced.values);
-    score_by_ratio(result.matches, least - static_cast<float>(range.centre));
-  }
-  return result;
+  Alone alone;
+  return search_lines_part(whole_of(enhanced), options, alone);
 }
 
 constexpr std::array kMethods{
-    SearchMethod{"lines", "the best straight line through each query (SeqSLAM)", &search_straight_lines},
+    SearchMethod{"lines", "the best straight line through each query (SeqSLAM)", &search_straight_lines, 0.5,
+                 false, &search_lines_part},
     SearchMethod{"cone", "most single best matches within a cone of speeds (OpenSeqSLAM2)",
                  &by_stretches<search_cone>},
     SearchMethod{"hybrid", "the best match of each query within a cone of speeds, summed (OpenSeqSLAM2)",
@@ -50,7 +40,7 @@ constexpr std::array kMethods{
     SearchMethod{"graph", "one cheapest path, looked for lazily, that may skip pictures that match nowhere",
                  &search_graph},
     SearchMethod{"path", "the most probable place at each picture of one path through the whole walk",
-                 &search_path, 0.9, true},
+                 &search_path, 0.9, true, &search_path_part},
 };
 
 }  // namespace

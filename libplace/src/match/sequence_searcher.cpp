@@ -3,6 +3,7 @@
 #include "match/search_stretch.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
@@ -37,13 +38,56 @@ class SequenceSearcher::Search {
       throw std::invalid_argument(
           "SequenceSearcher: parts of the reference by all queries, in order, expected");
     }
+    search(costs, count);
+  }
+
+  std::vector<OnShard> search_shard(const ConstCosts& costs, const Shard& own) {
+    if (own.end > plan_.references || costs.queries != plan_.queries ||
+        costs.first_reference > own.begin - std::min(own.begin, margin_) ||
+        costs.first_reference + costs.references < std::min(plan_.references, own.end + margin_))
+      throw std::invalid_argument("SequenceSearcher: a shard of the reference by all queries expected");
+    const OnShard nothing{.best = {},
+                          .elsewhere = kUnreached,
+                          .head = {},
+                          .tail = {},
+                          .after_head = kUnreached,
+                          .before_tail = kUnreached};
+    on_shard_ = std::vector<OnShard>(plan_.queries, nothing);
+    searched_ = own.begin;
+    search(costs, own.size());
+    std::vector<OnShard>& found = *on_shard_;
+    const std::vector<SequenceMatch> matches = matches_so_far();
+    for (std::size_t q = 0; q < found.size(); ++q) {
+      found[q].best = matches[q];
+      found[q].elsewhere = found_[q].elsewhere;
+    }
+    return std::move(found);
+  }
+
+  std::vector<SequenceMatch> finish() const {
+    if (plan_.queries > 0 && searched_ != plan_.references)
+      throw std::invalid_argument("SequenceSearcher: references are missing");
+    return matches_so_far();
+  }
+
+ private:
+  /// The best of the parts searched so far for a query.
+  struct Found {
+    StretchBest best;
+    float elsewhere = kUnreached;     ///< the least cost outside the best one's window
+    std::vector<float> latest;        ///< costs of the last references, as many as a window has
+    float before_those = kUnreached;  ///< the least cost before those
+  };
+
+  /// The next `count` references.
+  void search(const ConstCosts& costs, std::size_t count) {
     if (count == 0 || plan_.queries == 0) return;
     begin_ = searched_;
-    searched_ = past;
+    searched_ += count;
     stretches_.clear();
     const std::size_t width = stretch_width(plan_.runs);
-    for (std::size_t begin = begin_; begin < past; begin += width)
-      stretches_.emplace_back(plan_, begin, std::min(width, past - begin));
+    for (std::size_t begin = begin_; begin < searched_; begin += width)
+      stretches_.emplace_back(plan_, begin, std::min(width, searched_ - begin));
     costs_.resize(kRows * chunks_of(count) * kChunk);
     chunk_least_.resize(kRows * chunks_of(count));
     best_.resize(kRows * stretches_.size());
@@ -52,9 +96,7 @@ class SequenceSearcher::Search {
     for (std::size_t row = 0; row < end; row += kRows) take(costs, row, std::min(kRows, end - row));
   }
 
-  std::vector<SequenceMatch> finish() const {
-    if (plan_.queries > 0 && searched_ != plan_.references)
-      throw std::invalid_argument("SequenceSearcher: references are missing");
+  [[nodiscard]] std::vector<SequenceMatch> matches_so_far() const {
     std::vector<SequenceMatch> matches(plan_.queries);
     for (std::size_t q = 0; q < matches.size(); ++q) {
       const Found& found = found_[q];
@@ -68,15 +110,6 @@ class SequenceSearcher::Search {
     }
     return matches;
   }
-
- private:
-  /// The best of the parts searched so far for a query.
-  struct Found {
-    StretchBest best;
-    float elsewhere = kUnreached;     ///< the least cost outside the best one's window
-    std::vector<float> latest;        ///< costs of the last references, as many as a window has
-    float before_those = kUnreached;  ///< the least cost before those
-  };
 
   /// Rows past a query's own that its lines need.
   [[nodiscard]] std::size_t ahead() const { return static_cast<std::size_t>(plan_.runs.highest_query); }
@@ -124,11 +157,25 @@ class SequenceSearcher::Search {
     const std::size_t after = std::max(begin_, found.best.reference + window_ + 1);
     if (found.best.cost < kUnreached && after < searched_)
       found.elsewhere = std::min(found.elsewhere, least_of(i, after, searched_));
+    if (on_shard_ && searched_ - begin_ < plan_.references) {
+      note_ends((*on_shard_)[static_cast<std::size_t>(&found - found_.data())], i);
+      return;
+    }
     if (searched_ == plan_.references) return;
     found.before_those =
         std::min({found.before_those, least(found.latest), least_of(i, begin_, searched_ - window_)});
     const std::span<const float> latest = costs_of(i).subspan(searched_ - window_ - begin_, window_);
     found.latest.assign(latest.begin(), latest.end());
+  }
+
+  /// The costs that a member of a team says of its shard.
+  void note_ends(OnShard& shard, std::size_t i) {
+    const std::span<const float> costs = costs_of(i).first(searched_ - begin_);
+    const std::size_t ends = std::min(window_, costs.size());
+    shard.head.assign(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(ends));
+    shard.tail.assign(costs.end() - static_cast<std::ptrdiff_t>(ends), costs.end());
+    shard.after_head = least_of(i, begin_ + ends, searched_);
+    shard.before_tail = least_of(i, begin_, searched_ - ends);
   }
 
   static float least(std::span<const float> values) {
@@ -160,6 +207,7 @@ class SequenceSearcher::Search {
   std::size_t margin_, window_;  ///< references on either side
   std::vector<Found> found_;
   std::size_t searched_ = 0;  ///< references, including those of the part
+  std::optional<std::vector<OnShard>> on_shard_;
   // Of the part that is being searched:
   std::size_t begin_ = 0;
   std::vector<SearchStretch> stretches_;
@@ -180,6 +228,11 @@ std::size_t SequenceSearcher::margin() const {
 
 void SequenceSearcher::push(const ConstCosts& costs, std::size_t count) {
   search_->push(costs, count);
+}
+
+std::vector<SequenceSearcher::OnShard> SequenceSearcher::search_shard(const ConstCosts& costs,
+                                                                      const Shard& own) {
+  return search_->search_shard(costs, own);
 }
 
 std::vector<SequenceMatch> SequenceSearcher::finish() {

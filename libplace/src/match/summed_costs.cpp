@@ -17,21 +17,35 @@ constexpr float kLowest = 31;  // deviations below the mean, over all parts toge
 
 SummedCosts::SummedCosts(std::vector<SummedPart> parts) : parts_(std::move(parts)) {
   if (parts_.empty()) throw std::invalid_argument("SummedCosts: at least one part expected");
+  Alone alone;
+  survey(references(), {0, references()}, 0, alone);
+}
+
+SummedCosts::SummedCosts(std::vector<SummedPart> parts, std::size_t total, const Shard& own,
+                         std::size_t first, Team& team)
+    : parts_(std::move(parts)) {
+  if (parts_.empty()) throw std::invalid_argument("SummedCosts: at least one part expected");
+  survey(total, own, first, team);
+}
+
+void SummedCosts::survey(std::size_t total, const Shard& own, std::size_t first, Team& team) {
   for (const SummedPart& part : parts_) {
     if (part.costs->queries() != queries() || part.costs->references() != references())
       throw std::invalid_argument("SummedCosts: parts of one size expected");
     ContrastEnhancer& enhancer = enhancers_.emplace_back(
-        queries(), references(),
-        ContrastEnhancementOptions{.method = Enhancement::kStandardise, .prior_queries = part.prior_queries});
+        queries(), total,
+        ContrastEnhancementOptions{.method = Enhancement::kStandardise, .prior_queries = part.prior_queries},
+        own, first);
     CostMatrix stretch;
     constexpr std::size_t kTogether = 8 * ContrastEnhancer::kPart;
-    for (std::size_t first = 0; first < references(); first += kTogether) {
-      const std::size_t count = std::min(kTogether, references() - first);
+    for (std::size_t at = own.begin - first; at < own.end - first; at += kTogether) {
+      const std::size_t count = std::min(kTogether, own.end - first - at);
       stretch.values.resize(queries() * count);
-      const Costs block{0, queries(), first, count, stretch.values.data(), count};
+      const Costs block{0, queries(), at, count, stretch.values.data(), count};
       part.costs->compute(block);
       enhancer.survey(block, count);
     }
+    enhancer.share(team);
   }
 }
 

@@ -31,12 +31,7 @@ double keyframe_spacing_m(const Traverse& traverse) {
 /// The references to compare with: all, or a shortlist of very many.
 std::vector<std::size_t> references_to_compare(const Descriptors& query, const Descriptors& reference,
                                                const RouteMatchingOptions& options, int length) {
-  // A shortlist takes less than half as long as comparing all references with 400 queries
-  // (tests/bench/README.md).
-  constexpr std::size_t kManyQueries = 400, kManyReferences = 100'000;
-  const bool many = count_of(query) >= kManyQueries && count_of(reference) >= kManyReferences;
-  if (options.candidate_use == CandidateUse::kAlways ||
-      (options.candidate_use == CandidateUse::kAuto && many)) {
+  if (uses_shortlist(options, count_of(query), count_of(reference))) {
     CandidateOptions settings = options.candidates;
     settings.margin = std::max(settings.margin, length);
     return candidates(query, reference, settings);
@@ -49,7 +44,8 @@ std::shared_ptr<const DescriptorSet> descriptors_of(const RouteMatchingOptions& 
   return make_descriptors({.name = "thumbnail", .patch = options.patch});
 }
 
-/// Converts costs that were not enhanced to deviations from their mean, the unit of likelihoods.
+}  // namespace
+
 void standardise_as_a_whole(CostMatrix& costs) {
   const double mean = range_of(costs.values).centre;
   double variance = 0;
@@ -60,7 +56,13 @@ void standardise_as_a_whole(CostMatrix& costs) {
   for (float& cost : costs.values) cost = static_cast<float>((static_cast<double>(cost) - mean) * scale);
 }
 
-}  // namespace
+bool uses_shortlist(const RouteMatchingOptions& options, std::size_t queries, std::size_t references) {
+  // A shortlist takes less than half as long as comparing all references with 400 queries
+  // (tests/bench/README.md).
+  constexpr std::size_t kManyQueries = 400, kManyReferences = 100'000;
+  if (options.candidate_use != CandidateUse::kAuto) return options.candidate_use == CandidateUse::kAlways;
+  return queries >= kManyQueries && references >= kManyReferences;
+}
 
 std::vector<std::size_t> counted(std::size_t count) {
   std::vector<std::size_t> all(count);
@@ -102,13 +104,18 @@ TraverseCosts costs_against(const SampledWalk& sampled, const Traverse& traverse
                             const RouteMatchingOptions& options, int length, const SearchCallback& callback) {
   ComparedWalks both = compared_walks(sampled, traverse, options, length);
   TraverseCosts costs{std::move(both.columns), cost_matrix(*both.costs)};
+  enhance_compared(costs, index, options, callback);
+  return costs;
+}
+
+void enhance_compared(TraverseCosts& costs, std::size_t index, const RouteMatchingOptions& options,
+                      const SearchCallback& callback) {
   if (callback) callback({index, false, block_of(std::as_const(costs.enhanced)), costs.columns});
   ContrastEnhancementOptions enhancement = options.enhancement;
   enhancement.prior_queries = prior_queries_of(options);
   enhance_contrast(costs.enhanced, enhancement);
   if (callback) callback({index, true, block_of(std::as_const(costs.enhanced)), costs.columns});
   if (options.enhancement.method == Enhancement::kNone) standardise_as_a_whole(costs.enhanced);
-  return costs;
 }
 
 CostMatrix cost_matrix_on_route(const SampledWalk& sampled, const Traverse& traverse,

@@ -36,4 +36,19 @@ struct TraverseCosts {
 TraverseCosts costs_against(const SampledWalk& sampled, const Traverse& traverse, std::size_t index,
                             const RouteMatchingOptions& options, int length, const SearchCallback& callback);
 
+/// The same of costs that are there: enhances them.
+void enhance_compared(TraverseCosts& costs, std::size_t index, const RouteMatchingOptions& options,
+                      const SearchCallback& callback);
+
+/// Converts costs that were not enhanced to deviations from their mean, the unit of likelihoods.
+void standardise_as_a_whole(CostMatrix& costs);
+
+/// Whether a walk is compared with a shortlist of a traverse.
+bool uses_shortlist(const RouteMatchingOptions& options, std::size_t queries, std::size_t references);
+
+/// The gaps of a traverse, `gaps` by keyframe, as gaps of the compared columns; there are also gaps between
+/// the stretches of a shortlist, where the traverse continues elsewhere.
+std::vector<std::size_t> gaps_between(const std::vector<std::size_t>& columns,
+                                      const std::vector<std::size_t>& gaps);
+
 }  // namespace place

@@ -17,7 +17,6 @@ namespace {
 
 using sqlite::Statement;
 
-constexpr std::size_t kChunk = 256;  // rows
 constexpr std::string_view kPixels = "pixels", kColumns = "columns", kFloats = "floats";
 
 }  // namespace

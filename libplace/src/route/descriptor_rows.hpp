@@ -15,6 +15,8 @@
 /// the rows one after the other, in chunks of 256 rows, each with its checksum.
 namespace place::descriptor_rows {
 
+inline constexpr std::size_t kChunk = 256;  ///< rows
+
 /// The layout of descriptors: their form ("pixels", "columns" or "floats"), its two dimensions, and the bytes
 /// of one.
 struct Form {

@@ -218,6 +218,7 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
         database.prepare("SELECT checksum, pixels FROM thumbnail_chunk WHERE traverse = ? ORDER BY first");
     read_chunks(chunk.bind(id), traverse.thumbnails.pixels, path, "thumbnails");
   }
+  if (!options.descriptors) return traverse;
   Statement descriptor =
       database.prepare("SELECT form, width, height FROM descriptor WHERE traverse = ? ORDER BY descriptor");
   descriptor.bind(id);
@@ -288,10 +289,23 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   }
   for (std::int64_t id = 1; id <= traverses; ++id) {
     route.traverses.push_back(read_traverse(database, shown, id, options));
-    if (route.traverses.back().descriptors.size() != route.learned.size())
+    if (options.descriptors && route.traverses.back().descriptors.size() != route.learned.size())
       damaged(shown, "descriptors are missing");
   }
   return route;
+}
+
+void read_previews(const std::filesystem::path& path, Route& route, std::size_t traverse,
+                   std::span<const std::size_t> keyframes) {
+  const Database database(path, Database::Mode::kReadOnly, path.string());
+  std::vector<Keyframe>& all = route.traverses.at(traverse).keyframes;
+  for (const std::size_t keyframe : keyframes) {
+    Statement preview = database.prepare("SELECT jpeg FROM preview WHERE traverse = ? AND position = ?");
+    preview.bind(static_cast<std::int64_t>(traverse) + 1).bind(static_cast<std::int64_t>(keyframe));
+    if (!preview.step()) continue;
+    const std::span<const std::uint8_t> jpeg = preview.blob();
+    all.at(keyframe).preview_jpeg.assign(jpeg.begin(), jpeg.end());
+  }
 }
 
 bool looks_like_route(const std::filesystem::path& path) {

@@ -105,14 +105,17 @@ void take_keyframes(const vo::Walk& walk, std::vector<std::size_t> frames, const
 
 /// The scale that fits keyframes to those of a traverse, by the first descriptor.
 RelativeScale scale_to(const Traverse& reference, const SampledWalk& sampled, const Descriptor& descriptor,
-                       const RelativeScaleOptions& scale, std::optional<int> max_shift_px) {
+                       const RelativeScaleOptions& scale, const WalkSamplingOptions& options) {
   const Descriptors query = descriptor.comparable(sampled.descriptors.front());
+  const DescriptorTraits traits = descriptor.traits();
+  const ContrastEnhancementOptions enhancement{.method = Enhancement::kStandardise,
+                                               .prior_queries = traits.prior_queries};
+  if (options.scale_costs) return relative_scale(options.scale_costs(query), scale, enhancement);
   Descriptors compared = descriptor.comparable(reference.descriptors.front());
   constexpr std::size_t kLargest = 50'000;  // keyframes; with more, only likely ones are compared
   if (count_of(compared) > kLargest) compared = select(compared, candidates(query, compared));
-  const DescriptorTraits traits = descriptor.traits();
-  return relative_scale(cost_matrix(*descriptor_costs(query, compared, traits, max_shift_px)), scale,
-                        {.method = Enhancement::kStandardise, .prior_queries = traits.prior_queries});
+  return relative_scale(cost_matrix(*descriptor_costs(query, compared, traits, options.max_shift_px)), scale,
+                        enhancement);
 }
 
 /// `sample_walk` without its points.
@@ -150,9 +153,9 @@ SampledWalk described_walk(const vo::Walk& walk, const WalkSamplingOptions& opti
                  sampled);
   if (reference == nullptr || !options.tie_scale) return sampled;
 
-  const RelativeScale tie = scale_to(
-      *reference, sampled, *descriptors->front(),
-      motion.metric && route->metric ? options.metric_scale : options.relative_scale, options.max_shift_px);
+  const RelativeScale tie =
+      scale_to(*reference, sampled, *descriptors->front(),
+               motion.metric && route->metric ? options.metric_scale : options.relative_scale, options);
   sampled.scale_gain = tie.gain;
   if (tie.scale == 1) return sampled;
   sampled.scale = tie.scale;

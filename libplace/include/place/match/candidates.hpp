@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <vo/image/image_stack.hpp>
@@ -33,5 +34,34 @@ struct CandidateOptions {
 /// dimensions + log references)); 8 * dimensions bytes for each reference and about 20 for its tree node.
 std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::ImageStack& references,
                                     const CandidateOptions& options = {});
+
+/// The same in parts, for references that are not in memory as a whole: components learned from the sample,
+/// each part projected by itself, and then the search among all projections.
+class CandidateFinder {
+ public:
+  /// `sample`: the references at `candidate_sample`, in order.
+  CandidateFinder(const vo::ImageStack& sample, const CandidateOptions& options);
+  ~CandidateFinder();
+  CandidateFinder(CandidateFinder&&) noexcept;
+  CandidateFinder& operator=(CandidateFinder&&) noexcept;
+
+  /// Values that an image is reduced to.
+  [[nodiscard]] std::size_t dimensions() const;
+  /// The images' projections, one after the other.
+  [[nodiscard]] std::vector<float> project(const vo::ImageStack& images) const;
+  /// The candidates among `references`, the projections of all.
+  [[nodiscard]] std::vector<std::size_t> find(const vo::ImageStack& queries, std::vector<float> references,
+                                              const CandidateOptions& options) const;
+
+ private:
+  struct Components;
+  std::unique_ptr<const Components> components_;
+};
+
+/// The references, evenly spaced, that components are learned from; all of few.
+std::vector<std::size_t> candidate_sample(std::size_t references, const CandidateOptions& options);
+
+/// True if there are so few references that all are candidates.
+bool all_are_candidates(std::size_t references, const CandidateOptions& options);
 
 }  // namespace place

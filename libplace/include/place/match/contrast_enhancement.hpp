@@ -1,8 +1,10 @@
 #pragma once
 
 #include "place/match/cost_matrix.hpp"
+#include "place/match/team.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,9 +42,15 @@ class ContrastEnhancer {
   static constexpr std::size_t kPart = 512;  ///< a surveyed part has a multiple of this many references ...
   static constexpr std::size_t kAlign = 32;  ///< ... an enhanced one begins at a multiple of this many
 
-  /// Throws `std::invalid_argument` if window < 2 or prior_queries < 0. Memory: 16 bytes for each query.
+  /// Throws `std::invalid_argument` if window < 2 or prior_queries < 0. Memory: 32 bytes for each query and
+  /// doubling of the references.
   ContrastEnhancer(std::size_t queries, std::size_t references,
                    const ContrastEnhancementOptions& options = {});
+
+  /// The same for a shard: only its references are surveyed here, and then `share` adds what the other
+  /// members of a team surveyed. Columns are numbered from `first` on, the first that this member has.
+  ContrastEnhancer(std::size_t queries, std::size_t references, const ContrastEnhancementOptions& options,
+                   const Shard& own, std::size_t first);
 
   /// References on either side of a part that its values need; a multiple of kAlign.
   [[nodiscard]] std::size_t margin() const;
@@ -51,6 +59,10 @@ class ContrastEnhancer {
   /// margin() more on either side, as far as the reference goes. `count` is a multiple of kPart, except for
   /// the last part. Throws `std::invalid_argument` for other costs.
   void survey(const ConstCosts& costs, std::size_t count);
+
+  /// Adds up the surveys of all members, in an order that does not depend on how many there are. Without a
+  /// team, the last part surveyed does it.
+  void share(Team& team);
 
   /// Enhances a part in place; its outer margin() references are left undefined, except at the ends of the
   /// reference. Throws `std::invalid_argument` unless it has all queries, begins at a multiple of kAlign, and
@@ -61,12 +73,17 @@ class ContrastEnhancer {
   [[nodiscard]] CostRange range() const;
 
  private:
+  struct Survey;
+  void standardise_by(const Survey& survey);
+
   std::size_t queries_, references_;
   ContrastEnhancementOptions options_;
-  std::size_t surveyed_ = 0;  // references
-  // For each query over the references: during the survey, the sum and the sum of squares.
-  std::vector<double> mean_, inverse_deviation_;
-  double sum_ = 0, least_ = 0, most_ = 0;  // of the enhanced values, unless standardised
+  std::size_t begin_ = 0, end_;  // references to survey here, numbered like the columns
+  std::size_t surveyed_;         // up to this one
+  bool alone_ = false, ready_ = false;
+  std::shared_ptr<Survey> survey_;                // until all are surveyed
+  std::vector<double> mean_, inverse_deviation_;  // for each query over the references
+  double sum_ = 0, least_ = 0, most_ = 0;         // of the enhanced values, unless standardised
 };
 
 }  // namespace place

@@ -24,4 +24,8 @@ std::unique_ptr<CostSource> descriptor_costs(const Descriptors& queries, const D
 std::vector<std::size_t> candidates(const Descriptors& queries, const Descriptors& references,
                                     const CandidateOptions& options = {});
 
+/// The pictures that `candidates` looks at for descriptors of this form; none for rows of floats. `options`:
+/// as these pictures need them.
+std::optional<vo::ImageStack> candidate_pictures(const Descriptors& descriptors, CandidateOptions& options);
+
 }  // namespace place

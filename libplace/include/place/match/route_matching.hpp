@@ -28,6 +28,8 @@ enum class CandidateUse {
   kAlways,  ///< always a shortlist
 };
 
+class TraverseSearch;
+
 /// Settings of `match_on_route`.
 struct RouteMatchingOptions {
   CandidateUse candidate_use = CandidateUse::kAuto;
@@ -46,6 +48,25 @@ struct RouteMatchingOptions {
   double accept_probability = 0.95;                 ///< least probability of an accepted match
   std::optional<double> accept_score;               ///< least score instead
   std::optional<openseqslam::Options> openseqslam;  ///< run the original's search instead of ours
+  TraverseSearch* traverse_search = nullptr;        ///< searches traverses that are not in memory; null: here
+};
+
+/// Searches traverses whose descriptors are not in memory (`StoredSearch`).
+class TraverseSearch {
+ public:
+  virtual ~TraverseSearch() = default;
+
+  /// Called first. Throws `vo::Error` for settings that it cannot do.
+  virtual void prepare(const Settings& resolved, const Route& route) = 0;
+  /// The costs of a walk's first descriptors, comparable, by which its scale is tied to a traverse.
+  virtual CostMatrix scale_costs(std::size_t traverse, const Descriptors& query) = 0;
+  /// What was found, and the traverse's keyframe of every column.
+  struct Found {
+    std::vector<std::size_t> columns;
+    SureMatches matches;
+  };
+  /// `search`: of `search_on_route`.
+  virtual Found search(std::size_t traverse, const SampledWalk& sampled, const SearchOptions& search) = 0;
 };
 
 /// A part of the matrices of a search against one traverse: all queries by some of its keyframes.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "place/match/cost_matrix.hpp"
+#include "place/match/matrix_part.hpp"
 #include "place/match/search_options.hpp"
 #include "place/match/sequence_search.hpp"
 
@@ -28,6 +29,8 @@ struct SearchMethod {
   /// Hardly any right match scores below this quantile of wrong matches' scores (`MatchProbabilityOptions`).
   double decoy_quantile = 0.5;
   bool scores_are_log_odds = false;  ///< a score is log(p / (1 - p)) of the method's own probability p
+  /// The same for a team whose members have a part of the matrix each; null if it needs the whole.
+  SearchResult (*search_part)(const MatrixPart& part, const SearchOptions& options, Team& team) = nullptr;
 };
 
 /// All search methods; the first is the default.

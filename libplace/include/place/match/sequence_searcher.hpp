@@ -1,6 +1,7 @@
 #pragma once
 
 #include "place/match/sequence_search.hpp"
+#include "place/match/team.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -41,6 +42,18 @@ class SequenceSearcher {
 
   /// One match for each query. Throws `std::invalid_argument` if references are missing.
   std::vector<SequenceMatch> finish();
+
+  /// What a member of a team finds on its shard, for one query.
+  struct OnShard {
+    SequenceMatch best;             ///< its score is that against the shard alone
+    float elsewhere = 0;            ///< the least cost outside the best one's window
+    std::vector<float> head, tail;  ///< costs of the first and of the last references, a window of each ...
+    float after_head = 0;           ///< ... and the least cost of all but these
+    float before_tail = 0;
+  };
+  /// Searches references [own.begin, own.end) alone, instead of `push` and `finish`; `costs` as for `push`.
+  /// Infinite costs are of nothing.
+  std::vector<OnShard> search_shard(const ConstCosts& costs, const Shard& own);
 
  private:
   class Search;

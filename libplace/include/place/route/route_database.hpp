@@ -2,7 +2,9 @@
 
 #include "place/route/route.hpp"
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 
 namespace place {
 
@@ -13,6 +15,7 @@ inline constexpr int kRouteSchemaVersion = 5;
 struct RouteReadOptions {
   bool previews = true;     ///< read the pictures and thumbnails too
   bool view_points = true;  ///< and the SURF points, where there are any
+  bool descriptors = true;  ///< and the descriptors; without them, see `StoredDescriptors`
 };
 
 /// Reads a route database: one SQLite file, opened read-only. Descriptors are stored in chunks of 256, each
@@ -21,6 +24,11 @@ struct RouteReadOptions {
 /// written by another version, or is damaged (a broken page, rows or chunks that do not match their digest).
 /// O(file).
 Route read_route(const std::filesystem::path& path, const RouteReadOptions& options = {});
+
+/// Reads the pictures of some keyframes of a traverse into a route that was read without. Throws `vo::Error`
+/// as `read_route` does.
+void read_previews(const std::filesystem::path& path, Route& route, std::size_t traverse,
+                   std::span<const std::size_t> keyframes);
 
 /// True if the file is a SQLite database, as routes are, by its first bytes. Nothing is thrown.
 bool looks_like_route(const std::filesystem::path& path);

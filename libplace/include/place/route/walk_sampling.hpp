@@ -1,10 +1,12 @@
 #pragma once
 
 #include "place/describe/descriptor.hpp"
+#include "place/match/cost_matrix.hpp"
 #include "place/route/relative_scale.hpp"
 #include "place/route/route.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +37,9 @@ struct WalkSamplingOptions {
   /// kept.
   std::optional<std::size_t> points_record;
   RelativeScaleOptions relative_scale;
+  /// The costs of a walk's first descriptors, comparable, against a route's first traverse, for `tie_scale`;
+  /// empty: of its descriptors in memory.
+  std::function<CostMatrix(const Descriptors& query)> scale_costs;
   /// The same if both walks are in metres, from steps: their lengths differ by a tenth or two where speeds
   /// differ by half.
   RelativeScaleOptions metric_scale{.prior_weight = 1};

@@ -1,0 +1,45 @@
+#include "stored_run.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <place/match/stored_search.hpp>
+#include <place/route/route_database.hpp>
+
+namespace retrace {
+
+using nlohmann::ordered_json;
+
+void read_matched_previews(const std::string& path, const std::vector<place::Match>& matches,
+                           place::Route& route) {
+  for (std::size_t i = 0; i < route.traverses.size(); ++i) {
+    std::vector<std::size_t> keyframes;
+    for (const place::Match& match : matches)
+      if (match.place && match.place->traverse == route.traverses[i].name)
+        keyframes.push_back(match.place->keyframe);
+    place::read_previews(path, route, i, keyframes);
+  }
+}
+
+ordered_json shards_of_team(place::Team& team, MatrixKeeper& keeper, std::uint64_t bytes_read,
+                            std::uint64_t bytes_sent) {
+  ordered_json json = ordered_json::array();
+  if (team.size() == 1) return json;
+  keeper.join(team);
+  const std::string mine =
+      ordered_json{{"descriptor_bytes_read", bytes_read}, {"message_bytes", bytes_sent}}.dump();
+  for (const place::Team::Message& other :
+       team.collect({reinterpret_cast<const std::uint8_t*>(mine.data()), mine.size()}))
+    json.push_back(ordered_json::parse(other.begin(), other.end()));
+  return json;
+}
+
+void serve_run(const std::string& route_path, LaunchedTeam& team, bool whole_matrices) {
+  MatrixKeeper keeper(whole_matrices);
+  const std::uint64_t bytes_read = place::serve_shards(
+      route_path, team,
+      [&](const place::SearchPart& part, std::size_t keyframes) { keeper.take(part, keyframes); });
+  shards_of_team(team, keeper, bytes_read, team.bytes_sent());
+  team.exchange({});  // until the first has written all
+}
+
+}  // namespace retrace
