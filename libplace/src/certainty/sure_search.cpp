@@ -2,6 +2,7 @@
 
 #include "place/certainty/decoy_search.hpp"
 #include "place/certainty/place_spread.hpp"
+#include "place/match/search_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,34 @@ double probability_of(double log_odds) {
   return 1 / (1 + std::exp(-log_odds));
 }
 
+std::vector<double> scores_of(std::span<const SequenceMatch> matches) {
+  std::vector<double> scores;
+  for (const SequenceMatch& match : matches) {
+    if (match.reference) scores.push_back(static_cast<double>(match.score));
+  }
+  return scores;
+}
+
+/// Of scores that are log odds: at most the odds.
+void limit_by_odds(std::vector<double>& probability, std::span<const double> log_odds) {
+  for (std::size_t i = 0; i < probability.size(); ++i)
+    probability[i] = std::min(probability[i], probability_of(log_odds[i]));
+}
+
+/// Raises the probability of places that are probable on one path through the whole walk, as most are whose
+/// neighbours were matched beside them, however alike another place is.
+void raise_by_path(std::vector<double>& probability, const CostMatrix& enhanced,
+                   std::span<const SequenceMatch> matches, const SearchOptions& options) {
+  const SearchMethod& path = search_method("path");
+  const std::vector<double> log_odds = scores_of(path_scores(enhanced, matches, options));
+  MatchProbabilities by_path = match_probabilities(log_odds, decoy_scores(enhanced, path, options),
+                                                   {.decoy_quantile = path.decoy_quantile});
+  if (by_path.status != ProbabilityStatus::kGiven) return;
+  limit_by_odds(by_path.probability, log_odds);
+  for (std::size_t i = 0; i < probability.size(); ++i)
+    probability[i] = std::max(probability[i], by_path.probability[i]);
+}
+
 }  // namespace
 
 SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
@@ -21,11 +50,9 @@ SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method
   SureMatches result;
   result.looked_at = found.looked_at;
   const auto spread = place_spread(enhanced, found.matches, options.sequence.uniqueness_window);
-  std::vector<double> scores;
-  for (std::size_t q = 0; q < found.matches.size(); ++q) {
-    if (found.matches[q].reference) scores.push_back(static_cast<double>(found.matches[q].score));
+  const std::vector<double> scores = scores_of(found.matches);
+  for (std::size_t q = 0; q < found.matches.size(); ++q)
     result.matches.push_back({.match = found.matches[q], .probability = {}, .sd_keyframes = spread[q]});
-  }
   if (scores.empty()) return result;
 
   MatchProbabilities probabilities;
@@ -39,8 +66,9 @@ SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method
     result.source = ProbabilitySource::kDecoys;
     result.wrong_share = probabilities.wrong_share;
     if (method.scores_are_log_odds) {
-      for (std::size_t i = 0; i < scores.size(); ++i)
-        probabilities.probability[i] = std::min(probabilities.probability[i], probability_of(scores[i]));
+      limit_by_odds(probabilities.probability, scores);
+    } else {
+      raise_by_path(probabilities.probability, enhanced, found.matches, options);
     }
   } else if (method.scores_are_log_odds) {
     result.source = ProbabilitySource::kSearch;

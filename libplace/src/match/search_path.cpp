@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -92,10 +94,12 @@ class Posterior {
   double off_ = 0;
 };
 
-/// Matches of the queries of one stretch. The forward pass is made twice, the second time from kept rows,
-/// last one first, so that only 2 sqrt(queries) rows need to be kept.
+/// Matches of the queries of one stretch, at the places `given` or else where they are most probable. The
+/// forward pass is made twice, the second time from kept rows, last one first, so that only 2 sqrt(queries)
+/// rows need to be kept.
 void search_stretch(const CostMatrix& enhanced, const SearchOptions& options, const PathModel& model,
-                    Stretch queries, std::vector<SequenceMatch>& matches) {
+                    Stretch queries, std::span<const SequenceMatch> given,
+                    std::vector<SequenceMatch>& matches) {
   const std::size_t count = queries.end - queries.begin;
   const auto block = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   std::vector<float> row_likelihoods(enhanced.references);
@@ -136,12 +140,15 @@ void search_stretch(const CostMatrix& enhanced, const SearchOptions& options, co
     }
     for (std::size_t i = end; i-- > begin;) {
       posterior.set(rows[i - begin], backward);
-      const std::size_t at = posterior.peak(), query = queries.begin + i;
-      matches[query] = {.reference = at,
-                        .cost = enhanced.at(query, at),
-                        .score = static_cast<float>(posterior.log_odds(
-                            at, static_cast<std::size_t>(options.sequence.uniqueness_window))),
-                        .terms = options.sequence.length};
+      const std::size_t query = queries.begin + i;
+      const std::optional<std::size_t> at =
+          given.empty() ? std::optional(posterior.peak()) : given[query].reference;
+      if (at)
+        matches[query] = {.reference = at,
+                          .cost = enhanced.at(query, *at),
+                          .score = static_cast<float>(posterior.log_odds(
+                              *at, static_cast<std::size_t>(options.sequence.uniqueness_window))),
+                          .terms = options.sequence.length};
       if (i == 0) break;
       model.backward(query, backward, likelihoods[i - begin], backward_next, work);
       std::swap(backward, backward_next);
@@ -164,22 +171,40 @@ bool PathSearchOptions::is_valid(std::string* reason) const {
   return true;
 }
 
-SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options) {
+namespace {
+
+std::vector<SequenceMatch> matches_on_path(const CostMatrix& enhanced, std::span<const SequenceMatch> given,
+                                           const SearchOptions& options) {
   std::string reason;
   if (!options.path.is_valid(&reason) || !options.sequence.is_valid(&reason))
     throw std::invalid_argument("search_path: " + reason);
   if (!options.path.steps.empty() && options.path.steps.size() != enhanced.queries)
     throw std::invalid_argument("search_path: one step for each query expected");
-  SearchResult result;
-  result.matches.resize(enhanced.queries);
-  if (enhanced.values.empty()) return result;
+  std::vector<SequenceMatch> matches(enhanced.queries);
+  if (enhanced.values.empty()) return matches;
   const PathModel model(options.path, options.sequence,
                         stretches_between(options.gaps.reference, enhanced.references), enhanced.references);
   const std::vector<Stretch> stretches = stretches_between(options.gaps.query, enhanced.queries);
   vo::parallel_for(stretches.size(), [&](std::size_t i) {
-    search_stretch(enhanced, options, model, stretches[i], result.matches);
+    search_stretch(enhanced, options, model, stretches[i], given, matches);
   });
-  return result;
+  return matches;
+}
+
+}  // namespace
+
+SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options) {
+  return {.matches = matches_on_path(enhanced, {}, options)};
+}
+
+std::vector<SequenceMatch> path_scores(const CostMatrix& enhanced, std::span<const SequenceMatch> matches,
+                                       const SearchOptions& options) {
+  const auto is_inside = [&](const SequenceMatch& m) {
+    return !m.reference || *m.reference < enhanced.references;
+  };
+  if (matches.size() != enhanced.queries || !std::ranges::all_of(matches, is_inside))
+    throw std::invalid_argument("path_scores: one match on the reference for each query expected");
+  return matches_on_path(enhanced, matches, options);
 }
 
 }  // namespace place
