@@ -79,8 +79,9 @@ TEST(SearchSurely, TrustsLinesThatLieOnOnePath) {
   double with_path = 0, without = 0;
   for (std::size_t q = 0; q < matches.size(); ++q) {
     EXPECT_GE(*lines.matches[q].probability, alone.probability[q]) << q;
-    if (on_path[q].score < 0)  // elsewhere rather than here
+    if (on_path[q].score < 0) {  // elsewhere rather than here
       EXPECT_LE(*lines.matches[q].probability, std::max(alone.probability[q], 0.5)) << q;
+    }
     const double off = static_cast<double>(*matches[q].reference) - static_cast<double>(q + 20);
     if (q >= 60 || std::abs(off) > 2) continue;
     with_path += *lines.matches[q].probability;
