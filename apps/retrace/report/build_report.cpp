@@ -17,7 +17,7 @@
 namespace retrace {
 namespace {
 
-WalkColumns columns_of(const place::Traverse& traverse) {
+WalkColumns traverse_columns(const place::Traverse& traverse) {
   WalkColumns columns{.name = traverse.name};
   for (const place::Keyframe& keyframe : traverse.keyframes) {
     columns.frame.push_back(static_cast<double>(keyframe.frame));
@@ -50,7 +50,7 @@ std::string build_report(const place::Route& route, const place::AddedTraverse& 
                      .matches = {},
                      .unit = route.unit,
                      .query = {},
-                     .traverses = {columns_of(traverse)},
+                     .traverses = {traverse_columns(traverse)},
                      .counts = {},
                      .data = nothing,
                      .truth = nullptr,
