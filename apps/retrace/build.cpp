@@ -2,6 +2,7 @@
 #include "command.hpp"
 #include "import_route.hpp"
 #include "progress_bar.hpp"
+#include "report/build_report.hpp"
 #include "run_directory.hpp"
 #include "survey_files.hpp"
 
@@ -20,6 +21,7 @@
 #include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
+#include <vo/io/atomic_file.hpp>
 
 namespace retrace {
 namespace {
@@ -33,6 +35,7 @@ struct BuildOptions {
   SurveyFiles survey;
   std::string import;
   std::string places;
+  std::string report;
 };
 
 /// The default name of the traverse: the recording's, without folders and extension.
@@ -51,11 +54,21 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
   }
 }
 
+void check_report(const BuildOptions& options) {
+  check_writable(options.report);
+  const std::filesystem::path report = options.report;
+  if (report.lexically_normal() == std::filesystem::path(options.output).lexically_normal())
+    throw vo::Error(options.report, "is the route itself", "another file for --report");
+  if (std::filesystem::exists(report) && !options.common.force)
+    throw vo::Error(options.report, "already exists", "another file, or --force to overwrite");
+}
+
 void build(BuildOptions& options) {
   if (!options.import.empty()) {
     if (!options.walk.empty() || !options.name.empty() || options.settings != place::Settings{} ||
-        options.survey != SurveyFiles{} || !options.places.empty())
-      throw vo::Error("--import", "leaves no choice of a walk, a name, places, a survey or settings",
+        options.survey != SurveyFiles{} || !options.places.empty() || !options.report.empty())
+      throw vo::Error("--import",
+                      "leaves no choice of a walk, a name, places, a survey, a report or settings",
                       "--output alone: all else is in the folder");
     return import_route(options.import, options.output, options.common);
   }
@@ -63,6 +76,7 @@ void build(BuildOptions& options) {
     throw vo::Error("walk", "is missing", std::string(kWalkArgument) + ", or --import");
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_writable(options.output);
+  if (!options.report.empty()) check_report(options);
   std::vector<place::PlaceName> names;
   if (!options.places.empty()) names = place::read_place_names(options.places);
   if (options.name.empty()) options.name = default_name(options.walk.front());
@@ -95,6 +109,7 @@ void build(BuildOptions& options) {
   traverse.places = place::named_places(names, traverse);
   lock.check_unchanged();
   place::write_route(options.output, route);
+  if (!options.report.empty()) vo::write_file(options.report, build_report(route, added, walk, settings));
   print_added(options.output, route, added, options.common.json);
 }
 
@@ -111,6 +126,8 @@ std::function<void()> declare_build(Arguments& arguments) {
   arguments.option("--places", options->places,
                    "names of places, which `follow --announce` says in passing: .csv with frame,name or "
                    "distance_m,name");
+  arguments.option("--report", options->report,
+                   "page that shows how the walk's motion was learned and sampled, such as day.html [none]");
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral});
   arguments.common(options->common);

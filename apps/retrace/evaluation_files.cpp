@@ -2,6 +2,7 @@
 
 #include "report/run_data.hpp"
 #include "report/run_report.hpp"
+#include "report/run_view.hpp"
 #include "run_directory.hpp"
 #include "trajectory_metrics.hpp"
 
@@ -96,6 +97,7 @@ struct ErrorRow {
   double query_time_s = 0;
   bool accepted = false;
   place::ScoredQuery query;
+  std::optional<double> true_frame;
 };
 
 // Every digit: some errors lie on the tolerance.
@@ -131,12 +133,14 @@ constexpr std::array kErrorColumns{
     ErrorColumn{"error", [](const ErrorRow& r) { return cell_of(r.query.error); },
                 [](ErrorRow& r, std::string_view cell) { return read_optional(cell, r.query.error); },
                 kNumber},
+    ErrorColumn{"true_frame", [](const ErrorRow& r) { return cell_of(r.true_frame); }},
 };
 
-std::string errors_csv(const std::vector<place::Match>& matches, const place::RunEvaluation& run) {
+std::string errors_csv(const std::vector<place::Match>& matches, const RunTruth& run) {
   std::vector<ErrorRow> rows;
   for (std::size_t i = 0; i < matches.size(); ++i)
-    rows.push_back({matches[i].query_frame, matches[i].query_time_s, matches[i].accepted, run.queries[i]});
+    rows.push_back({matches[i].query_frame, matches[i].query_time_s, matches[i].accepted, run.queries[i],
+                    true_frame(run.truth, matches[i].query_frame)});
   return vo::to_csv<ErrorRow>(rows, kErrorColumns);
 }
 

@@ -89,7 +89,8 @@ void odometry(const OdometryOptions& options) {
   const WrittenOdometry written = write_odometry(options.output, walk, walked, settings,
                                                  {.loops = options.close_loops ? &loops : nullptr,
                                                   .visual_odometry = options.visual_odometry,
-                                                  .imu_steps = by_imu});
+                                                  .imu_steps = by_imu,
+                                                  .visual = stages.sampling.motion.visual});
   if (options.common.json) {
     fmt::print("{}", written.summary);
   } else {

@@ -1,6 +1,8 @@
 #include "odometry_files.hpp"
 
+#include "report/alignment_data.hpp"
 #include "report/odometry_report.hpp"
+#include "report/run_data.hpp"
 #include "run_directory.hpp"
 #include "settings_file.hpp"
 #include "visual_odometry.hpp"
@@ -56,6 +58,26 @@ std::vector<std::optional<double>> to_common_unit(const std::vector<Told>& told,
   return displacement;
 }
 
+/// The same with its jumps of scale left in: everything in the unit that most frames are in, scaled as above.
+std::vector<std::optional<double>> to_one_unit(const std::vector<Told>& told, const vo::WalkMotion& motion) {
+  std::map<int, std::vector<std::size_t>> frames;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (told[i].displacement) frames[told[i].unit].push_back(i);
+  }
+  std::vector<std::optional<double>> displacement(told.size());
+  if (frames.empty()) return displacement;
+  const auto most = std::ranges::max_element(frames, {}, [](const auto& unit) { return unit.second.size(); });
+  double own = 0, common = 0;
+  for (const std::size_t i : most->second) {
+    own += *told[i].displacement;
+    common += motion.frames[i].value;
+  }
+  for (std::size_t i = 0; i < told.size() && own > 0; ++i) {
+    if (told[i].displacement) displacement[i] = *told[i].displacement * common / own;
+  }
+  return displacement;
+}
+
 std::string six(double value) {
   return fmt::format("{:.6f}", value);
 }
@@ -73,7 +95,7 @@ struct FrameRow {
   double heading_rad = 0, signal = 0, threshold = 0;
   bool reliable = false;
   vo::Pose2 pose;
-  std::optional<double> vo_displacement, sad_displacement;
+  std::optional<double> vo_displacement, sad_displacement, vo_as_it_comes;
 };
 
 using F = FrameRow;
@@ -95,6 +117,7 @@ constexpr std::array kFrameColumns{
     vo::CsvColumn<F>{"displacement_sigma", [](const F& r) { return six(r.moved.sigma); }},
     vo::CsvColumn<F>{"vo_displacement", [](const F& r) { return six_or_empty(r.vo_displacement); }},
     vo::CsvColumn<F>{"sad_displacement", [](const F& r) { return six_or_empty(r.sad_displacement); }},
+    vo::CsvColumn<F>{"vo_as_it_comes", [](const F& r) { return six_or_empty(r.vo_as_it_comes); }},
 };
 
 std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
@@ -105,7 +128,7 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
     if (motion.visual) by_sad[i] = {motion.visual->displacement[i]};
   }
   const auto vo_displacement = to_common_unit(by_vo, motion),
-             sad_displacement = to_common_unit(by_sad, motion);
+             sad_displacement = to_common_unit(by_sad, motion), vo_as_it_comes = to_one_unit(by_vo, motion);
   const vo::PedestrianMotion& gait = *motion.pedestrian;
   const vo::Signal& signal = gait.signal.*vo::reader_of(gait.step_signal).values;
   std::vector<FrameRow> rows;
@@ -121,7 +144,8 @@ std::string frames_csv(const vo::Walk& walk, const vo::WalkMotion& motion) {
                     .reliable = gait.signal.reliable[i],
                     .pose = motion.trajectory[i].pose,
                     .vo_displacement = vo_displacement[i],
-                    .sad_displacement = sad_displacement[i]});
+                    .sad_displacement = sad_displacement[i],
+                    .vo_as_it_comes = vo_as_it_comes[i]});
   }
   return vo::to_csv<FrameRow>(rows, kFrameColumns);
 }
@@ -207,9 +231,9 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
 
 }  // namespace
 
-const std::vector<std::string> kOdometryFiles{"frames.csv",     "steps.csv",           "activity.csv",
-                                              "trajectory.tum", "summary.json",        "report.html",
-                                              "config.toml",    "visual_odometry.csv", "visual_odometry.tum"};
+const std::vector<std::string> kOdometryFiles{
+    "frames.csv",  "steps.csv",   "activity.csv",        "trajectory.tum",      "summary.json",
+    "report.html", "config.toml", "visual_odometry.csv", "visual_odometry.tum", kRunDataFile};
 
 WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, const vo::WalkMotion& walked,
                                const place::Settings& settings, const OdometryExtras& extras) {
@@ -235,6 +259,8 @@ WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, con
   std::string text = json.dump(2) + "\n";
   vo::write_file(files / "summary.json", text);
   vo::write_file(files / "config.toml", to_toml(settings));
+  vo::write_file(files / kRunDataFile,
+                 ordered_json{{"alignment", alignment_data(walk, walked.visual, extras.visual)}}.dump());
   vo::write_file(files / "report.html", odometry_report(files));
   staged.commit(kOdometryFiles);
   return {json["distance"].get<double>(), json["unit"].get<std::string>(), std::move(text)};

@@ -20,6 +20,7 @@ struct OdometryExtras {
   const place::ClosedLoops* loops = nullptr;  ///< the trajectory with loops, and the one before
   bool visual_odometry = false;               ///< visual_odometry.csv and .tum
   std::optional<std::size_t> imu_steps;       ///< those that the accelerometer shows
+  vo::VisualMotionOptions visual;             ///< for the figures of alignment error, if motion is without
 };
 
 /// Facts about the walk.
@@ -30,7 +31,7 @@ struct WrittenOdometry {
 };
 
 /// Writes a walk's odometry into an existing folder: frames.csv, steps.csv, activity.csv, trajectory.tum,
-/// summary.json, config.toml and the report. `walked`: with steps.
+/// summary.json, config.toml, report_data.json and the report. `walked`: with steps.
 WrittenOdometry write_odometry(const std::filesystem::path& folder, const vo::Walk& walk,
                                const vo::WalkMotion& walked, const place::Settings& settings,
                                const OdometryExtras& extras);

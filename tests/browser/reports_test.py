@@ -221,12 +221,12 @@ class ReportsTest(unittest.TestCase):
         self.assertIn("point 1 of", figure.find_element(By.CSS_SELECTOR, ".reading").text)
 
     def test_localise(self):
-        self.open(self.walks.run / "report.html", charts=4, matrices=1, strips=1)
+        self.open(self.walks.run / "report.html", charts=5, matrices=1, strips=1)
         self.assertIn("retrace evaluate", self.script("return document.body.textContent"))
 
     def test_evaluate(self):
         run = self.walks.evaluated(self.walks.localised("evaluated", "--search", "lines", "--accept-score", 1.5))
-        self.open(run / "report.html", charts=8, matrices=1, strips=1)
+        self.open(run / "report.html", charts=10, matrices=1, strips=1)
         self.assertIn("Max-F1", self.script("return document.querySelector('dl.headline').textContent"))
 
         matrix = self.all("figure.matrix")[0]
@@ -255,16 +255,24 @@ class ReportsTest(unittest.TestCase):
         pictures = self.script("return [...document.querySelectorAll('.strip img')].map(i => i.decode().then(() => i.naturalWidth))")
         self.assertTrue(pictures)
 
+    def test_build(self):
+        page = self.folder / "day.html"
+        check("build", self.walks.day, "-o", self.folder / "reported.db", "--report", page)
+        self.open(page, charts=6)
+        self.assertEqual(len(self.all("figure.picture img")), 3)
+        chart = self.all("figure.chart")[2]  # a picture alone: nothing to read by arrows
+        self.zooms(chart, chart.find_element(By.TAG_NAME, "canvas"))
+
     def test_odometry(self):
         walk = self.folder / "odometry"
         check("odometry", self.walks.day, "-o", walk)
-        self.open(walk / "report.html", charts=6)
+        self.open(walk / "report.html", charts=11)
         chart = self.all("figure.chart")[1]
         self.zooms(chart, chart.find_element(By.TAG_NAME, "canvas"))
         self.reads_points_by_keys(chart)
 
         check("evaluate-odometry", walk, "--truth", self.folder / "day/truth.csv")
-        self.open(walk / "report.html", charts=8)
+        self.open(walk / "report.html", charts=13)
         self.assertIn("True steps", self.script("return document.querySelector('dl.headline').textContent"))
 
     def test_odometry_over_a_map(self):
@@ -391,7 +399,7 @@ class ReportsTest(unittest.TestCase):
         runs = [self.walks.evaluated(self.walks.localised(name, *options))
                 for name, options in (("short", ["--sequence-length", 3]), ("long", ["--sequence-length", 20]))]
         check("compare", *runs, "-o", self.folder / "comparison", "--segment-s", 2)
-        self.open(self.folder / "comparison/report.html", charts=2)
+        self.open(self.folder / "comparison/report.html", charts=4, matrices=2)
         self.assertEqual(len(self.all("dl.headline > div")), 2)
 
     def test_hovering_the_curve_shows_the_threshold(self):

@@ -172,6 +172,11 @@ class CliTest(unittest.TestCase):
             self.assertGreater(len(known), 0.9 * len(frames), alone)
             self.assertAlmostEqual(sum(own for own, _ in known), sum(moved for _, moved in known), delta=0.01, msg=alone)
         self.assertGreater(max(abs(float(row["sad_displacement"]) - float(row["displacement"])) for row in frames), 0.005)
+        alignment = read_json(out / "report_data.json")["alignment"]  # the figures of SSS 1 to 3 and 10
+        self.assertEqual(len(alignment["pictures"]), 3)
+        self.assertLess(alignment["pictures"][0]["mean"], alignment["pictures"][2]["mean"])  # it grows with the separation
+        for name in ("knot_error", "knot_separation"):
+            self.assertEqual(alignment["relation"][name], sorted(alignment["relation"][name]))
         check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "by_steps", "--step-length", step_length,
               "--motion", "steps")
         by_steps = rows(self.folder / "by_steps" / "frames.csv")
@@ -1251,11 +1256,48 @@ tolerance-m = 0.1
         self.assertEqual(said, json.loads(check(*compare, "--threads", 1, "-o", self.folder / "b")))
         self.assertNotEqual(said, json.loads(check(*compare, "--seed", 2, "-o", self.folder / "c")))
 
+        # SSS Fig. 6 and 7: both matrices, the paths through them, and the keyframes on the route.
+        page = (self.folder / "a/report.html").read_text()
+        self.assertEqual(page.count('data-kind="matrix"'), 2)
+        for title in ("share of the reference", "m along the route", "Cost matrices"):
+            self.assertIn(title, page)
+
         other = self.evaluated("other", tolerance_m=0.1)
         self.refused("compare", one, other, "-o", self.folder / "d", says="tolerance of 0.1 metres", leaves=["d"])
         self.refused("compare", one, self.walks.run, "-o", self.folder / "e", says="retrace evaluate", leaves=["e"])
         self.refused("compare", one, two, "--names", "a", "-o", self.folder / "f", says="one for each run")
         self.refused("compare", one, "-o", self.folder / "g", says="2", code=2)
+
+    def test_evaluate_says_where_each_query_truly_is(self):
+        run = self.evaluated("run")
+        known = 0
+        for row in rows(run / "errors.csv"):
+            at = self.walks.query_at[int(row["query_frame"])]
+            if not row["true_frame"]:
+                continue
+            known += 1
+            # The first frame of the reference that is as far.
+            frame = int(float(row["true_frame"]))
+            self.assertGreaterEqual(self.walks.reference_at[frame], at)
+            self.assertTrue(frame == 0 or self.walks.reference_at[frame - 1] < at)
+        self.assertGreater(known, 0.9 * len(rows(run / "errors.csv")))
+        self.assertIn("as fixed sampling has it", (run / "report.html").read_text())
+
+    def test_build_leaves_a_report_when_asked(self):
+        build = ["build", self.walks.reference, "-o", self.folder / "route.db"]
+        self.refused(*build, "--report", self.folder / "route.db", says="is the route itself")
+        self.refused(*build, "--report", self.folder / "none" / "day.html", says="is no folder")
+        page = self.folder / "day.html"
+        check(*build, "--report", page)
+        self.assertEqual({path.name for path in self.folder.iterdir() if "lock" not in path.name}, {"route.db", "day.html"})
+        text = page.read_text()
+        for title in ("Alignment error", "learned relation", "What stays and what passes by", "keyframes"):
+            self.assertIn(title, text)
+        self.assertEqual(text.count('class="picture"'), 3)  # 1, 5 and 10 frames apart
+        self.refused(*build, "--name", "again", "--report", page, says="already exists")
+        self.assertEqual(page.read_text(), text)
+        self.refused("build", "--import", self.folder, "-o", self.folder / "b.db", "--report", self.folder / "b.html",
+                     says="leaves no choice")
 
     # ---- the libraries ----
 

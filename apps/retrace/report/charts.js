@@ -287,6 +287,7 @@ function readByKeys(figure, canvas, spec, chartOf, {zoom, pan}) {
     reading.textContent = `${name}, point ${point + 1} of ${x.length}: ${spec.x_title} ${x[point]}, ${spec.y_title} ${y[point] ?? 'none'}`;
   };
   canvas.addEventListener('keydown', event => {
+    if (spec.series.length === 0 && !'+-0='.includes(event.key)) return;
     const along = {ArrowRight: 1, ArrowLeft: -1, PageDown: 20, PageUp: -20}[event.key];
     const between = {ArrowDown: 1, ArrowUp: -1}[event.key];
     if (along && event.shiftKey && spec.zoomable) {

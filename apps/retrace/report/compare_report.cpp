@@ -1,12 +1,17 @@
 #include "compare_report.hpp"
 
 #include "report/page.hpp"
+#include "report/path_charts.hpp"
 #include "report/pr_chart.hpp"
+#include "report/run_data.hpp"
+#include "report/run_pictures.hpp"
 #include "report/run_report.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace retrace {
 namespace {
@@ -50,6 +55,39 @@ Chart intervals(const Comparison& comparison) {
   }
   chart.x_range = {std::max(0.0, low - 0.02), 1.01};
   return chart;
+}
+
+/// The matrices, paths and keyframes of all runs beside each other (SSS Fig. 6, 7).
+void put_paths(Page& page, const Comparison& comparison) {
+  std::vector<nlohmann::ordered_json> data;
+  std::vector<RunView> views;
+  data.reserve(comparison.runs.size());  // views keep references
+  views.reserve(comparison.runs.size());
+  std::vector<NamedRun> runs;
+  for (const ComparedRun& run : comparison.runs) {
+    if (!std::filesystem::exists(std::filesystem::path(run.folder) / "matches.csv")) continue;
+    data.push_back(read_run_data(run.folder));
+    views.push_back(read_run(run.folder, data.back(), nullptr));
+    views.back().true_frame = read_true_frames(run.folder);
+    runs.push_back({run.name, &views.back()});
+  }
+  page.chart(
+      "Paths and keyframes", path_chart(runs),
+      "The path that each search has to find, by its own keyframes: the true one where it is known. The "
+      "straighter it is, the fewer lines and the longer sequences will do [SSS Fig. 7].");
+  page.chart("", sampling_chart(runs),
+             "Where on the route the keyframes lie: dense where a walker is slow, unless he is sampled by "
+             "distance [SSS Fig. 6].");
+  bool any = false;
+  for (const auto& [name, view] : runs) {
+    for (const MatrixFigure& matrix : matrix_figures(*view)) {
+      if (!any) page.heading("Cost matrices");
+      if (!any) page.begin_row();
+      any = true;
+      page.matrix(matrix.json, fmt::format("{}, against {}", name, matrix.traverse));
+    }
+  }
+  if (any) page.end_row();
 }
 
 std::string verdict(const place::PairedDifference& difference, const ComparedRun& run,
@@ -116,6 +154,7 @@ std::string compare_report(const Comparison& comparison) {
     }
   }
   page.table({"runs", "difference", "resamples in which it is above 0", "so"}, rows);
+  put_paths(page, comparison);
   page.heading("How it was counted");
   page.paragraph(kCounting);
   std::vector<std::pair<std::string, std::string>> folders;

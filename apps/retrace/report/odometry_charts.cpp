@@ -1,5 +1,7 @@
 #include "odometry_charts.hpp"
 
+#include "report/alignment_figures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -75,6 +77,35 @@ std::vector<double> over_half_a_second(const std::vector<double>& moved, const s
     speed.push_back(seconds > 0 ? (distance[near.end] - distance[near.begin + 1]) / seconds : NAN);
   }
   return speed;
+}
+
+/// The true speed; none without true poses.
+std::optional<Series> true_speed(const OdometryView& walk) {
+  if (walk.truth == nullptr || walk.truth->poses.size() < 2) return {};
+  std::vector<double> moved{0}, time_s{walk.truth->poses.front().time_s};
+  for (std::size_t i = 1; i < walk.truth->poses.size(); ++i) {
+    const vo::TimedPose &from = walk.truth->poses[i - 1], &to = walk.truth->poses[i];
+    moved.push_back(std::hypot(to.pose.x_m - from.pose.x_m, to.pose.y_m - from.pose.y_m));
+    time_s.push_back(to.time_s);
+  }
+  return Series{.name = "truth",
+                .x = time_s,
+                .y = over_half_a_second(moved, time_s),
+                .colour = "green",
+                .dash = {7, 5}};
+}
+
+/// The speed by one source, in whose lost frames nothing is moved; none if it has no frame.
+std::optional<Series> speed_alone(const OdometryView& walk, std::string name,
+                                  const std::vector<double>& displacement, std::string colour) {
+  if (std::ranges::all_of(displacement, [](double value) { return std::isnan(value); })) return {};
+  std::vector<double> moved;
+  for (const double value : displacement) moved.push_back(std::isnan(value) ? 0 : value);
+  return Series{.name = std::move(name),
+                .x = walk.frames.time_s,
+                .y = over_half_a_second(moved, walk.frames.time_s),
+                .colour = std::move(colour),
+                .width_px = 1};
 }
 
 /// Headings without jumps by whole turns.
@@ -171,6 +202,7 @@ std::optional<Chart> heading_chart(const OdometryView& walk) {
                           .y = walk.frames.heading_deg,
                           .colour = "orange"}},
               .zoomable = true};
+  if (!walk.turns.empty()) chart.bands.push_back(turn_band(walk.turns));
   if (walk.truth != nullptr && !walk.truth->poses.empty()) {
     Series truth{.name = "truth", .y = unwrapped_deg(walk.truth->poses), .colour = "green", .dash = {7, 5}};
     for (const vo::TimedPose& pose : walk.truth->poses) truth.x.push_back(pose.time_s);
@@ -191,29 +223,11 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
                           .colour = "orange"}},
               .zoomable = true,
               .size = "wide"};
-  if (walk.truth != nullptr && walk.truth->poses.size() > 1) {
-    std::vector<double> moved{0}, time_s{walk.truth->poses.front().time_s};
-    for (std::size_t i = 1; i < walk.truth->poses.size(); ++i) {
-      const vo::TimedPose &from = walk.truth->poses[i - 1], &to = walk.truth->poses[i];
-      moved.push_back(std::hypot(to.pose.x_m - from.pose.x_m, to.pose.y_m - from.pose.y_m));
-      time_s.push_back(to.time_s);
-    }
-    chart.series.push_back({.name = "truth",
-                            .x = time_s,
-                            .y = over_half_a_second(moved, time_s),
-                            .colour = "green",
-                            .dash = {7, 5}});
-  }
+  if (std::optional<Series> truth = true_speed(walk)) chart.series.push_back(std::move(*truth));
   // SSS Fig. 9: each source by itself. Lost frames have no displacement.
   const auto add_alone = [&](std::string name, const std::vector<double>& displacement, std::string colour) {
-    if (std::ranges::all_of(displacement, [](double value) { return std::isnan(value); })) return;
-    std::vector<double> moved;
-    for (const double value : displacement) moved.push_back(std::isnan(value) ? 0 : value);
-    chart.series.push_back({.name = std::move(name),
-                            .x = frames.time_s,
-                            .y = over_half_a_second(moved, frames.time_s),
-                            .colour = std::move(colour),
-                            .width_px = 1});
+    if (std::optional<Series> alone = speed_alone(walk, std::move(name), displacement, std::move(colour)))
+      chart.series.push_back(std::move(*alone));
   };
   add_alone("visual odometry alone", frames.vo_displacement, "blue");
   add_alone("alignment error alone", frames.sad_displacement, "purple");
@@ -228,6 +242,35 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
     if (!shaded.empty())
       chart.bands.push_back({.name = shown.first, .colour = shown.second, .spans = std::move(shaded)});
   }
+  return chart;
+}
+
+std::optional<Chart> scale_jumps_chart(const OdometryView& walk) {
+  const auto& frames = walk.frames;
+  if (frames.time_s.size() < 2) return {};
+  std::optional<Series> jumping =
+      speed_alone(walk, "visual odometry as it comes", frames.vo_as_it_comes, "blue");
+  if (!jumping) return {};
+  Chart chart{.title = "speed by visual odometry with its jumps of scale",
+              .x_title = "time, s",
+              .y_title = fmt::format("speed, {}/s", walk.summary.unit),
+              .series = {{.name = "odometry",
+                          .x = frames.time_s,
+                          .y = over_half_a_second(frames.displacement, frames.time_s),
+                          .colour = "orange"},
+                         std::move(*jumping)},
+              .zoomable = true,
+              .size = "wide"};
+  if (std::optional<Series> truth = true_speed(walk)) chart.series.push_back(std::move(*truth));
+  constexpr double kShown = 3;  // times the odometry's: a unit may be a hundred times another
+  double top = 0;
+  for (const double speed : chart.series[0].y) top = std::fmax(top, kShown * speed);
+  double most = 0;
+  for (const double speed : chart.series[1].y) most = std::fmax(most, 1.05 * speed);
+  if (top > 0) chart.y_range = {0.0, std::min(top, std::max(most, top / kShown * 1.05))};
+  auto lost =
+      spans(frames.time_s, [&](std::size_t i) { return i > 0 && std::isnan(frames.vo_as_it_comes[i]); });
+  if (!lost.empty()) chart.bands.push_back({.name = "lost", .colour = "grey", .spans = std::move(lost)});
   return chart;
 }
 

@@ -14,6 +14,9 @@ std::optional<Chart> activity_chart(const OdometryView& walk);
 std::optional<Chart> heading_chart(const OdometryView& walk);
 /// Speed, shaded by its source where visual odometry is lost; with the true speed (SSS Fig. 9).
 std::optional<Chart> speed_chart(const OdometryView& walk);
+/// The same with visual odometry in one unit throughout, so that its jumps of scale are seen (SSS Fig. 9);
+/// none without visual odometry.
+std::optional<Chart> scale_jumps_chart(const OdometryView& walk);
 /// Matches of each frame, shaded where there are too few.
 std::optional<Chart> matches_chart(const OdometryView& walk);
 

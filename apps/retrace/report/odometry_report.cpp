@@ -1,5 +1,6 @@
 #include "odometry_report.hpp"
 
+#include "report/alignment_figures.hpp"
 #include "report/odometry_charts.hpp"
 #include "report/page.hpp"
 #include "report/position_charts.hpp"
@@ -29,6 +30,8 @@ void put_headlines(Page& page, const OdometryView& walk) {
   }
   if (summary.frames_bridged)
     numbers.push_back({"Bridged", std::to_string(*summary.frames_bridged), "frames with too few matches"});
+  if (!walk.frames.time_s.empty())
+    numbers.push_back({"Turns", std::to_string(walk.turns.size()), "of 30 degrees or more"});
   if (walk.truth != nullptr) {
     for (const place::OdometryErrors& errors : walk.truth->evaluation.errors) {
       if (errors.count == 0 || (errors.at_m != 10 && errors.at_m != 50 && errors.at_m != 100)) continue;
@@ -84,8 +87,13 @@ std::string odometry_report(const std::filesystem::path& folder, const OdometryT
       "From the displacement of the half second about each frame. Unshaded, it is visual odometry's, in "
       "metres by the steps around, or in one unit by the ground; thin lines are the sources by themselves "
       "[SSS Fig. 9].");
-  page.chart("Heading", heading_chart(walk), "");
+  page.chart(
+      "", scale_jumps_chart(walk),
+      "Visual odometry as it comes: each time it starts again, its unit is another; here all is in the "
+      "unit that most frames are in. Speeds beyond the upper edge are cut off [SSS Fig. 9].");
+  page.chart("Heading", heading_chart(walk), "Turns are where it changes by 30 degrees or more within 3 s.");
   page.chart("Matches", matches_chart(walk), "Points followed over the tracking window.");
+  put_alignment(page, walk.alignment, walk.turns);
   put_settings(page, folder / "config.toml");
   return page.html();
 }

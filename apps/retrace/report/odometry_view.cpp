@@ -1,10 +1,13 @@
 #include "odometry_view.hpp"
 
+#include "report/run_data.hpp"
+
 #include <cmath>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
 
+#include <vo/base/degrees.hpp>
 #include <vo/io/csv.hpp>
 #include <vo/io/trajectory_io.hpp>
 
@@ -52,6 +55,7 @@ OdometryView read_odometry(const fs::path& folder) {
   OdometryView walk;
   walk.trajectory = vo::read_tum(folder / "trajectory.tum");
   walk.summary = read_summary(folder / "summary.json");
+  walk.alignment = read_run_data(folder).value("alignment", ordered_json::object());
   if (fs::exists(folder / "frames.csv")) {
     const vo::CsvTable table = vo::CsvTable::read(folder / "frames.csv");
     const auto alone = [&](const char* column) {
@@ -68,7 +72,12 @@ OdometryView read_odometry(const fs::path& folder) {
                    .source = table.text("source"),
                    .reliable = table.indices("reliable"),
                    .vo_displacement = alone("vo_displacement"),
-                   .sad_displacement = alone("sad_displacement")};
+                   .sad_displacement = alone("sad_displacement"),
+                   .vo_as_it_comes = alone("vo_as_it_comes")};
+    std::vector<double> heading_rad;
+    for (const double heading_deg : walk.frames.heading_deg)
+      heading_rad.push_back(heading_deg * vo::kRadPerDeg);
+    walk.turns = vo::find_turns(heading_rad, walk.frames.time_s);
   }
   if (fs::exists(folder / "steps.csv")) {
     const vo::CsvTable table = vo::CsvTable::read(folder / "steps.csv");

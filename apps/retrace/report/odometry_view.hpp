@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include <vo/gait/turns.hpp>
+
 namespace retrace {
 
 /// The facts about a walk in summary.json.
@@ -27,6 +31,7 @@ struct OdometryView {
     std::vector<std::string> source;
     std::vector<std::int64_t> reliable;
     std::vector<double> vo_displacement, sad_displacement;  ///< each source alone
+    std::vector<double> vo_as_it_comes;                     ///< with its jumps of scale
   } frames;  ///< for each frame; empty without frames.csv; NaN where there is no value
   struct Steps {
     std::vector<double> time_s;
@@ -39,6 +44,8 @@ struct OdometryView {
   } activity;
   vo::Trajectory trajectory;
   OdometrySummary summary;
+  std::vector<vo::WalkedTurn> turns;
+  nlohmann::ordered_json alignment;  ///< see `alignment_data`; empty without
   const OdometryTruth* truth = nullptr;
 };
 

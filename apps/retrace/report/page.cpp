@@ -185,9 +185,21 @@ void Page::heat_table(const HeatTable& table, std::array<double, 2> range) {
 
 void Page::picture(const std::vector<std::uint8_t>& image, std::string_view description,
                    std::string_view caption) {
+  picture(data_url(image), description, caption);
+}
+
+void Page::picture(const std::string& url, std::string_view description, std::string_view caption) {
   body_ += fmt::format(
-      "<figure class=\"picture\"><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-      data_url(image), escaped(description), escaped(caption));
+      "<figure class=\"picture\"><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n", url,
+      escaped(description), escaped(caption));
+}
+
+void Page::begin_row() {
+  body_ += "<div class=\"row\">\n";
+}
+
+void Page::end_row() {
+  body_ += "</div>\n";
 }
 
 void Page::figure(std::string_view kind, std::string_view content, std::string_view json,

@@ -49,6 +49,11 @@ class Page {
   /// A JPEG or PNG picture. `description` is for screen readers.
   void picture(const std::vector<std::uint8_t>& image, std::string_view description,
                std::string_view caption);
+  /// The same for a picture that is a `data:` URL already.
+  void picture(const std::string& url, std::string_view description, std::string_view caption);
+  /// Figures between these two stand beside each other where there is room.
+  void begin_row();
+  void end_row();
   void chart(const Chart& chart, std::string_view caption);
   /// The same under a heading, both left out if there is no chart; an empty heading is left out.
   void chart(std::string_view heading, const std::optional<Chart>& chart, std::string_view caption);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include <vo/base/degrees.hpp>
 #include <vo/base/error.hpp>
 
 namespace retrace {
@@ -121,6 +122,19 @@ std::optional<Chart> trajectory_chart(const OdometryView& walk) {
   chart.series.back().line = false;
   chart.series.back().mark = "square";
   chart.series.back().size_px = 7;
+  if (!walk.turns.empty()) {
+    Series turns{.name = "turn", .colour = "purple", .line = false, .mark = "diamond", .size_px = 6};
+    for (const vo::WalkedTurn& turn : walk.turns) {
+      const auto at = std::ranges::lower_bound(walk.trajectory, (turn.begin_s + turn.end_s) / 2, {},
+                                               &vo::TimedPose::time_s) -
+                      walk.trajectory.begin();
+      const auto& point = path[std::min(static_cast<std::size_t>(at), path.size() - 1)];
+      turns.x.push_back(point.x_m);
+      turns.y.push_back(point.y_m);
+      turns.notes.push_back(fmt::format("{:+.0f} deg", turn.turn_rad * vo::kDegPerRad));
+    }
+    chart.series.push_back(std::move(turns));
+  }
   chart.series.push_back(path_series(path, "odometry", "orange"));
   for (const vo::TimedPose& pose : walk.trajectory)
     chart.series.back().notes.push_back(fmt::format("{:.1f} s", pose.time_s));

@@ -8,21 +8,7 @@
 #include <nlohmann/json.hpp>
 
 namespace retrace {
-namespace {
-
 using nlohmann::ordered_json;
-
-/// The true place of a query frame on the reference, as a frame of it.
-std::optional<double> true_frame(const place::GroundTruth& truth, std::int64_t query_frame) {
-  if (truth.pairs) return place::true_reference_frame(*truth.pairs, static_cast<double>(query_frame));
-  const auto& along = truth.reference_distance_m;
-  if (query_frame >= static_cast<std::int64_t>(truth.query_distance_m.size()) || along.empty()) return {};
-  const std::optional<double>& at_m = truth.query_distance_m[static_cast<std::size_t>(query_frame)];
-  if (!at_m || *at_m < along.front() || *at_m > along.back()) return {};
-  return static_cast<double>(std::ranges::lower_bound(along, *at_m) - along.begin());
-}
-
-}  // namespace
 
 std::vector<MatrixFigure> matrix_figures(const RunView& run) {
   std::vector<MatrixFigure> figures;
@@ -43,8 +29,8 @@ std::vector<MatrixFigure> matrix_figures(const RunView& run) {
                          {"reference", reference},
                          {"score", rounded(match.score)},
                          {"accepted", match.accepted}});
-      if (run.truth == nullptr) continue;
-      const auto frame = true_frame(run.truth->truth, match.query_frame);
+      if (q >= run.true_frame.size()) continue;
+      const std::optional<double>& frame = run.true_frame[q];
       truth.push_back(frame ? rounded(interpolated(frames, keyframe, *frame)) : nullptr);
     }
     ordered_json spec{{"queries", run.matches.size()},
@@ -52,7 +38,7 @@ std::vector<MatrixFigure> matrix_figures(const RunView& run) {
                       {"reference_frames", traverse["frame"]},
                       {"pictures", traverse["pictures"]},
                       {"matches", std::move(matches)}};
-    if (run.truth != nullptr) spec["truth"] = std::move(truth);
+    if (!run.true_frame.empty()) spec["truth"] = std::move(truth);
     figures.push_back({run.traverses[i].name, spec.dump()});
   }
   return figures;

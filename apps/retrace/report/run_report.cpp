@@ -1,6 +1,7 @@
 #include "run_report.hpp"
 
 #include "report/page.hpp"
+#include "report/path_charts.hpp"
 #include "report/run_charts.hpp"
 #include "report/run_pictures.hpp"
 #include "report/settings_table.hpp"
@@ -123,11 +124,19 @@ std::string run_report(const fs::path& folder, const nlohmann::ordered_json& dat
         "Drag or use the arrows to move, + and - (or the wheel with Ctrl) to zoom.");
   }
   page.chart("Speed, before and after normalisation", speed_chart(view),
-             "Before: travelled displacement in a second, over a second about each moment [SSS Fig. 6].");
+             "Before: travelled displacement in a second, over a second about each moment.");
   page.chart(
       "", keyframe_chart(view),
       "After: displacement between neighbouring keyframes, in units of the sampling: constant, but where the "
-      "walker covers more than a unit between two frames [SSS Fig. 7].");
+      "walker covers more than a unit between two frames.");
+  page.chart(
+      "", straightness_chart(view),
+      "The path that a search has to find, of accepted matches or the true one: wavy by time, as it is "
+      "with every so many frames, and straighter by keyframes a distance apart [SSS Fig. 7].");
+  page.chart(
+      "", sampling_chart(view),
+      "Where on the route the keyframes of both walks lie, and where as many would lie at a fixed rate: "
+      "dense where a walker is slow [SSS Fig. 6].");
   page.chart(
       "", spacing_chart(view),
       "Metres truly walked between neighbouring keyframes. The closer the two walks, the straighter the path "

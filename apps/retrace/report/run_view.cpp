@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <place/match/match_io.hpp>
+#include <vo/io/csv.hpp>
 
 namespace retrace {
 namespace {
@@ -68,13 +69,33 @@ RunView read_run(const std::filesystem::path& folder, const ordered_json& data, 
               .unit = data.value("unit", 0.0),
               .counts = read_counts(folder / "summary.json"),
               .data = data,
-              .truth = truth};
+              .truth = truth,
+              .true_frame = {}};
+  if (truth != nullptr) {
+    for (const place::Match& match : run.matches)
+      run.true_frame.push_back(true_frame(truth->truth, match.query_frame));
+  }
   if (data.contains("query")) run.query = columns(data["query"], "query");
   if (data.contains("traverses")) {
     for (const ordered_json& traverse : data["traverses"])
       run.traverses.push_back(columns(traverse, traverse["name"].get<std::string>()));
   }
   return run;
+}
+
+std::vector<std::optional<double>> read_true_frames(const std::filesystem::path& folder) {
+  const vo::CsvTable table = vo::CsvTable::read(folder / "errors.csv");
+  return table.has("true_frame") ? table.optional_numbers("true_frame")
+                                 : std::vector<std::optional<double>>();
+}
+
+std::optional<double> true_frame(const place::GroundTruth& truth, std::int64_t query_frame) {
+  if (truth.pairs) return place::true_reference_frame(*truth.pairs, static_cast<double>(query_frame));
+  const auto& along = truth.reference_distance_m;
+  if (query_frame >= static_cast<std::int64_t>(truth.query_distance_m.size()) || along.empty()) return {};
+  const std::optional<double>& at_m = truth.query_distance_m[static_cast<std::size_t>(query_frame)];
+  if (!at_m || *at_m < along.front() || *at_m > along.back()) return {};
+  return static_cast<double>(std::ranges::lower_bound(along, *at_m) - along.begin());
 }
 
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {

@@ -3,6 +3,7 @@
 #include "report/run_report.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -44,11 +45,21 @@ struct RunView {
   std::optional<RunCounts> counts;
   const nlohmann::ordered_json& data;  ///< see run_data.hpp; may be empty
   const RunTruth* truth;               ///< null before the run is evaluated
+  /// The reference frame at which each query truly is, none where it is not known; empty before the run is
+  /// evaluated.
+  std::vector<std::optional<double>> true_frame;
 };
 
 /// Throws `vo::Error` if matches.csv cannot be read; anything else that is missing is left out.
 RunView read_run(const std::filesystem::path& folder, const nlohmann::ordered_json& data,
                  const RunTruth* truth);
+
+/// The true places of an evaluated run as `evaluate` wrote them, for a run that was read without its truth;
+/// none from a run that an older version evaluated. Throws `vo::Error` if the file cannot be read.
+std::vector<std::optional<double>> read_true_frames(const std::filesystem::path& folder);
+
+/// The true place of a query frame on the reference, as a frame of it.
+std::optional<double> true_frame(const place::GroundTruth& truth, std::int64_t query_frame);
 
 /// 0, 1, ... count - 1.
 std::vector<double> upto(std::size_t count);

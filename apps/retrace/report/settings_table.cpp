@@ -2,6 +2,8 @@
 
 #include <array>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,11 @@ namespace retrace {
 void put_settings(Page& page, const std::filesystem::path& config) {
   std::ifstream file(config);
   if (!file) return;
+  put_settings(page, std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+void put_settings(Page& page, const std::string& toml) {
+  std::istringstream file(toml);
   // Each setting has a comment above it; `name = value` was set, `# name = value` was not.
   std::vector<std::array<std::string, 3>> rows;
   std::string line, comment;

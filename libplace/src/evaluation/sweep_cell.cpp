@@ -83,22 +83,37 @@ SampledPair sample_equally(const WalkPair& walks, const Settings& given, const G
   return best;
 }
 
+namespace {
+
+/// The matches of every query on the pair's reference, with their scores.
+std::vector<Match> matches_in(const SampledPair& sampled, const CostMatrix& enhanced,
+                              const RouteMatchingOptions& matching, const SearchOptions& search,
+                              const vo::Walk& query) {
+  if (matching.openseqslam)  // the original has costs of its own
+    return match_on_route(sampled.route, query.time_s, sampled.query, matching).matches;
+  const Traverse& reference = sampled.route.traverses.front();
+  std::vector<Match> matches;
+  for (const SequenceMatch& found : search_method(matching.method).search(enhanced, search).matches) {
+    Match& match = matches.emplace_back();
+    match.query_frame = static_cast<std::int64_t>(sampled.query.frames[matches.size() - 1]);
+    match.score = found.score;
+    if (found.reference) match.place.emplace().frame = reference.keyframes[*found.reference].frame;
+  }
+  return matches;
+}
+
+}  // namespace
+
 std::optional<CellResult> run_cell(const SampledPair& sampled, const CostMatrix& enhanced,
                                    const RouteMatchingOptions& matching, const WalkPair& walks,
                                    const GroundTruth& truth, const Tolerance& tolerance) {
   const Traverse& reference = sampled.route.traverses.front();
   const SearchOptions search = search_on_route(reference, walks.query.time_s, sampled.query, matching);
   if (enhanced.references < static_cast<std::size_t>(search.sequence.length)) return {};
-  std::vector<Match> matches;
   CellResult result{.query_keyframes = enhanced.queries, .reference_keyframes = enhanced.references};
-  for (const SequenceMatch& found : search_method(matching.method).search(enhanced, search).matches) {
-    Match& match = matches.emplace_back();
-    const std::size_t frame = sampled.query.frames[matches.size() - 1];
-    match.query_frame = static_cast<std::int64_t>(frame);
-    match.score = found.score;
-    if (found.reference) match.place.emplace().frame = reference.keyframes[*found.reference].frame;
+  for (const std::size_t frame : sampled.query.frames)
     result.queries.time_s.push_back(walks.query.time_s[frame]);
-  }
+  const std::vector<Match> matches = matches_in(sampled, enhanced, matching, search, walks.query);
   RunEvaluation run = evaluate(matches, truth, tolerance);
   const Evaluation& e = run.evaluation;
   result.max_f1 = e.best.f1;

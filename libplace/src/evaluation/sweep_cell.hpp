@@ -42,8 +42,8 @@ SampledPair sample_pair(const WalkPair& walks, const Settings& given, const Grou
 SampledPair sample_equally(const WalkPair& walks, const Settings& given, const GroundTruth& truth,
                            std::size_t target);
 
-/// Searches an enhanced matrix and compares the matches with the truth; none if the reference is shorter than
-/// the sequence.
+/// Searches an enhanced matrix (`compat`: the keyframes' own thumbnails) and compares the matches with the
+/// truth; none if the reference is shorter than the sequence.
 std::optional<CellResult> run_cell(const SampledPair& sampled, const CostMatrix& enhanced,
                                    const RouteMatchingOptions& matching, const WalkPair& walks,
                                    const GroundTruth& truth, const Tolerance& tolerance);

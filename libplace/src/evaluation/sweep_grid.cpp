@@ -26,11 +26,10 @@ constexpr std::array kColumns{Column{"max_f1", &CellResult::max_f1},
                               Column{"recall_at_100_precision", &CellResult::recall_at_100_precision},
                               Column{"recall_at_1", &CellResult::recall_at_1}};
 
-/// Settings that may change from cell to cell: all but those that do not affect precision and recall, those
-/// of a file that both walks would share, and another program's search.
+/// Settings that may change from cell to cell: all but those that do not affect precision and recall, and
+/// those of a file that both walks would share.
 bool can_vary(const Setting& setting) {
-  constexpr std::array kNotHere{"compat",
-                                "threads",
+  constexpr std::array kNotHere{"threads",
                                 "accept-score",
                                 "accept-probability",
                                 "correct-drift",

@@ -11,6 +11,11 @@ namespace place {
 /// `search_path`. Members meet three times for each query and once more for each pass.
 SearchResult search_path_part(const MatrixPart& enhanced, const SearchOptions& options, Team& team);
 
+/// `path_scores`.
+std::vector<SequenceMatch> path_scores_part(const MatrixPart& enhanced,
+                                            std::span<const SequenceMatch> matches,
+                                            const SearchOptions& options, Team& team);
+
 /// `lines` of `search_methods`. Members meet once for each pair of stretches between gaps. The part must
 /// reach `reach_of(search_lines(...))` references beyond the shard, as far as the reference goes.
 SearchResult search_lines_part(const MatrixPart& enhanced, const SearchOptions& options, Team& team);

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -136,10 +138,17 @@ class Posterior {
   double off_ = 0;
 };
 
-/// The match of one query, by its posterior; the same for every member.
+/// The match of one query, at the place `given` or else where its posterior is highest; the same for every
+/// member.
 SequenceMatch match_by(const Posterior& posterior, const MatrixPart& enhanced, std::size_t query,
-                       const SequenceSearchOptions& options, Team& team) {
-  Peak peak = posterior.peak();
+                       const std::optional<std::size_t>& given, const SequenceSearchOptions& options,
+                       Team& team) {
+  Peak peak;
+  if (!given) {
+    peak = posterior.peak();
+  } else if (enhanced.has(*given)) {
+    peak = {.value = 1, .reference = *given};
+  }
   if (peak.value >= 0) peak.cost = enhanced.own_row(query)[peak.reference - enhanced.own.begin];
   if (team.size() > 1) {
     Peak best;
@@ -156,10 +165,12 @@ SequenceMatch match_by(const Posterior& posterior, const MatrixPart& enhanced, s
           .terms = options.length};
 }
 
-/// Matches of the queries of one stretch. The forward pass is made twice, the second time from kept rows,
-/// last one first, so that only 2 sqrt(queries) rows need to be kept.
+/// Matches of the queries of one stretch, at the places `given` or else where they are most probable. The
+/// forward pass is made twice, the second time from kept rows, last one first, so that only 2 sqrt(queries)
+/// rows need to be kept.
 void search_stretch(const MatrixPart& enhanced, const SearchOptions& options, const PathModel& model,
-                    Stretch queries, Team& team, std::vector<SequenceMatch>& matches) {
+                    Stretch queries, std::span<const SequenceMatch> given, Team& team,
+                    std::vector<SequenceMatch>& matches) {
   const std::size_t count = queries.end - queries.begin;
   const auto block = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   std::vector<float> row_likelihoods(enhanced.own.size());
@@ -201,7 +212,9 @@ void search_stretch(const MatrixPart& enhanced, const SearchOptions& options, co
     for (std::size_t i = end; i-- > begin;) {
       posterior.set(rows[i - begin], backward);
       const std::size_t query = queries.begin + i;
-      matches[query] = match_by(posterior, enhanced, query, options.sequence, team);
+      const std::optional<std::size_t> at = given.empty() ? std::nullopt : given[query].reference;
+      if (given.empty() || at)
+        matches[query] = match_by(posterior, enhanced, query, at, options.sequence, team);
       if (i == 0) break;
       model.backward(query, backward, likelihoods[i - begin], backward_next, work);
       std::swap(backward, backward_next);
@@ -224,33 +237,59 @@ bool PathSearchOptions::is_valid(std::string* reason) const {
   return true;
 }
 
-SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options) {
-  Alone alone;
-  return search_path_part(whole_of(enhanced), options, alone);
-}
+namespace {
 
-SearchResult search_path_part(const MatrixPart& enhanced, const SearchOptions& options, Team& team) {
+/// Matches of all queries, at the places `given` or, if there are none, where they are most probable.
+std::vector<SequenceMatch> matches_on_path(const MatrixPart& enhanced, std::span<const SequenceMatch> given,
+                                           const SearchOptions& options, Team& team) {
   std::string reason;
   if (!options.path.is_valid(&reason) || !options.sequence.is_valid(&reason))
     throw std::invalid_argument("search_path: " + reason);
   if (!options.path.steps.empty() && options.path.steps.size() != enhanced.queries())
     throw std::invalid_argument("search_path: one step for each query expected");
-  SearchResult result;
-  result.matches.resize(enhanced.queries());
-  if (enhanced.queries() == 0 || enhanced.references == 0) return result;
+  std::vector<SequenceMatch> matches(enhanced.queries());
+  if (enhanced.queries() == 0 || enhanced.references == 0) return matches;
   const PathModel model(options.path, options.sequence,
                         stretches_between(options.gaps.reference, enhanced.references), enhanced.references,
                         enhanced.own, kTriangle - 1, team);
   const std::vector<Stretch> stretches = stretches_between(options.gaps.query, enhanced.queries());
   const auto search = [&](std::size_t i) {
-    search_stretch(enhanced, options, model, stretches[i], team, result.matches);
+    search_stretch(enhanced, options, model, stretches[i], given, team, matches);
   };
   if (team.size() == 1) {
     vo::parallel_for(stretches.size(), search);
   } else {  // all members the same one at a time
     for (std::size_t i = 0; i < stretches.size(); ++i) search(i);
   }
-  return result;
+  return matches;
+}
+
+}  // namespace
+
+SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options) {
+  Alone alone;
+  return search_path_part(whole_of(enhanced), options, alone);
+}
+
+SearchResult search_path_part(const MatrixPart& enhanced, const SearchOptions& options, Team& team) {
+  return {.matches = matches_on_path(enhanced, {}, options, team)};
+}
+
+std::vector<SequenceMatch> path_scores(const CostMatrix& enhanced, std::span<const SequenceMatch> matches,
+                                       const SearchOptions& options) {
+  Alone alone;
+  return path_scores_part(whole_of(enhanced), matches, options, alone);
+}
+
+std::vector<SequenceMatch> path_scores_part(const MatrixPart& enhanced,
+                                            std::span<const SequenceMatch> matches,
+                                            const SearchOptions& options, Team& team) {
+  const auto is_inside = [&](const SequenceMatch& m) {
+    return !m.reference || *m.reference < enhanced.references;
+  };
+  if (matches.size() != enhanced.queries() || !std::ranges::all_of(matches, is_inside))
+    throw std::invalid_argument("path_scores: one match on the reference for each query expected");
+  return matches_on_path(enhanced, matches, options, team);
 }
 
 }  // namespace place

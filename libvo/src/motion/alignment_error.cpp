@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace vo {
@@ -108,36 +109,45 @@ MeanErrors mean_errors(const AlignmentErrors& errors, const std::vector<bool>& e
   return means;
 }
 
-std::vector<bool> high_error_windows(const AlignmentErrors& errors, std::span<const double> time_s,
-                                     const std::vector<bool>& excluded,
-                                     const AlignmentErrorOptions& options) {
+ErrorCourse error_course(const AlignmentErrors& errors, std::span<const double> time_s,
+                         const std::vector<bool>& excluded, const AlignmentErrorOptions& options) {
   const std::size_t frames = errors.frames();
-  if (time_s.size() != frames) throw std::invalid_argument("high_error_windows: one time per frame expected");
+  if (time_s.size() != frames) throw std::invalid_argument("error_course: one time per frame expected");
   check(errors, excluded);
 
-  const std::vector<double> per_frame = relative_errors(errors, excluded);
-  std::vector<double> smoothed(frames), counted;
+  ErrorCourse course{.relative = relative_errors(errors, excluded),
+                     .smoothed = std::vector<double>(frames),
+                     .limit = std::numeric_limits<double>::infinity()};
+  std::vector<double> counted;
   double sum = 0, count = 0;
   for (std::size_t i = 0, first = 0, last = 0; i < frames; ++i) {
     const auto add = [&](std::size_t frame, double sign) {
       if (is_excluded(excluded, frame)) return;
-      sum += sign * per_frame[frame];
+      sum += sign * course.relative[frame];
       count += sign;
     };
     while (last < frames && time_s[last] <= time_s[i] + options.smoothing_s / 2) add(last++, 1);
     while (time_s[first] < time_s[i] - options.smoothing_s / 2) add(first++, -1);
     if (is_excluded(excluded, i)) continue;
-    smoothed[i] = sum / count;
-    counted.push_back(smoothed[i]);
+    course.smoothed[i] = sum / count;
+    counted.push_back(course.smoothed[i]);
   }
-  std::vector<bool> high(frames, false);
-  if (counted.empty()) return high;
+  if (counted.empty()) return course;
 
   const double centre = median(counted);
   std::vector<double> deviations(counted.size());
   std::ranges::transform(counted, deviations.begin(), [&](double value) { return std::abs(value - centre); });
-  const double limit = centre + options.high_error_mads * median(deviations);
-  for (std::size_t i = 0; i < frames; ++i) high[i] = !is_excluded(excluded, i) && smoothed[i] > limit;
+  course.limit = centre + options.high_error_mads * median(deviations);
+  return course;
+}
+
+std::vector<bool> high_error_windows(const AlignmentErrors& errors, std::span<const double> time_s,
+                                     const std::vector<bool>& excluded,
+                                     const AlignmentErrorOptions& options) {
+  const ErrorCourse course = error_course(errors, time_s, excluded, options);
+  std::vector<bool> high(errors.frames());
+  for (std::size_t i = 0; i < high.size(); ++i)
+    high[i] = !is_excluded(excluded, i) && course.smoothed[i] > course.limit;
   return high;
 }
 

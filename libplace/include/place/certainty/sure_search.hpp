@@ -40,8 +40,14 @@ struct SureMatches {
 /// as things grow with every step, so decoys alone would accept it; the search's own probability allows for
 /// being off the route.
 ///
+/// Scores that compare a place with the next best one say little of a walk along which much looks alike: its
+/// right matches are hardly more distinct than its wrong ones. But they lie on one path. So a match of any
+/// other search has the higher of two probabilities: the one from its score, and the one that the path search
+/// gives its place (`path_scores`), calibrated and limited as above.
+///
 /// A walk with fewer than kFewestScores matches, or whose reverse has fewer, has only the search's own
-/// probabilities, if it gives any (`SearchMethod::scores_are_log_odds`). Cost: twice the search.
+/// probabilities, if it gives any (`SearchMethod::scores_are_log_odds`). Cost: twice the search, and for
+/// others than the path search twice that as well.
 SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
                           const SearchOptions& options);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@ namespace place {
 struct CostMatrix;
 struct SearchOptions;
 struct SearchResult;
+struct SequenceMatch;
 
 /// Settings of `search_path`.
 struct PathSearchOptions {
@@ -44,5 +46,11 @@ struct PathSearchOptions {
 /// references * sqrt(queries). Throws `std::invalid_argument` for options that are not valid or unless there
 /// is one step for each query.
 SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options);
+
+/// How probable the path finds places that another search matched: the same matches with the score that
+/// `search_path` would give their places, none where there is no match. Cost and errors as for it; throws
+/// `std::invalid_argument` also unless there is one match on the reference for each query.
+std::vector<SequenceMatch> path_scores(const CostMatrix& enhanced, std::span<const SequenceMatch> matches,
+                                       const SearchOptions& options);
 
 }  // namespace place

@@ -62,10 +62,22 @@ struct MeanErrors {
 /// left out.
 MeanErrors mean_errors(const AlignmentErrors& errors, const std::vector<bool>& excluded = {});
 
+/// The error along a walk, which shows windows of high error (SSS 6, Fig. 10).
+struct ErrorCourse {
+  std::vector<double> relative;  ///< each frame's error, as a multiple of the usual error at its spans
+  std::vector<double> smoothed;  ///< the same over a sliding window of time; 0 at frames that are excluded
+  double limit = 0;              ///< smoothed errors above it are high; infinite if no frame counts
+};
+
+/// The error of each frame, as a multiple of the usual error at its spans (a frame that was not compared has
+/// its neighbour's), smoothed over time, and the walk's median + high_error_mads * MAD. Frames `excluded`
+/// (one flag per frame, or none) are ignored. `time_s`: one per frame, increasing. O(frames * spans).
+ErrorCourse error_course(const AlignmentErrors& errors, std::span<const double> time_s,
+                         const std::vector<bool>& excluded = {}, const AlignmentErrorOptions& options = {});
+
 /// The frames in windows of high error: fairly large turns, abrupt changes of scene, fast camera motion (SSS
-/// 6, Fig. 10). The error of a frame, as a multiple of the usual error at its spans, is smoothed over time
-/// and compared with the walk's median + high_error_mads * MAD. Frames `excluded` (one flag per frame, or
-/// none) are ignored and never flagged. `time_s`: one per frame, increasing. Returns one flag per frame.
+/// 6, Fig. 10): where the smoothed error of `error_course` is above its limit. Frames `excluded` are never
+/// flagged. Returns one flag per frame.
 std::vector<bool> high_error_windows(const AlignmentErrors& errors, std::span<const double> time_s,
                                      const std::vector<bool>& excluded = {},
                                      const AlignmentErrorOptions& options = {});

@@ -11,6 +11,7 @@
 #include <place/certainty/decoy_search.hpp>
 #include <place/certainty/place_spread.hpp>
 #include <place/certainty/sure_search.hpp>
+#include <place/match/search_path.hpp>
 #include <vo/base/parallel.hpp>
 
 namespace {
@@ -33,12 +34,20 @@ TEST(SearchSurely, JoinsWhatItsStagesFind) {
   for (const auto& match : matches) scores.push_back(match.score);
   const auto probabilities = place::match_probabilities(scores, place::decoy_scores(costs, method, {}),
                                                         {.decoy_quantile = method.decoy_quantile});
+  const place::SearchMethod& path = search_method("path");
+  std::vector<double> odds;
+  for (const auto& match : place::path_scores(costs, matches, {})) odds.push_back(match.score);
+  const auto by_path = place::match_probabilities(odds, place::decoy_scores(costs, path, {}),
+                                                  {.decoy_quantile = path.decoy_quantile});
   ASSERT_EQ(sure.source, ProbabilitySource::kDecoys);
   EXPECT_EQ(sure.wrong_share, probabilities.wrong_share);
   for (std::size_t q = 0; q < matches.size(); ++q) {
     EXPECT_TRUE(test_support::same(sure.matches[q].match, matches[q])) << q;
     EXPECT_EQ(sure.matches[q].sd_keyframes, spread[q]) << q;
-    EXPECT_EQ(sure.matches[q].probability, probabilities.probability[q]) << q;
+    EXPECT_DOUBLE_EQ(*sure.matches[q].probability,
+                     std::max(probabilities.probability[q],
+                              std::min(by_path.probability[q], 1 / (1 + std::exp(-odds[q])))))
+        << q;
   }
 }
 
@@ -52,6 +61,33 @@ TEST(SearchSurely, IsSureOfAPlainWalkAndOfNoOther) {
       sure += static_cast<std::size_t>(match.probability.value_or(0) > 0.9);
     EXPECT_LE(sure, 10U) << method.name;
   }
+}
+
+TEST(SearchSurely, TrustsLinesThatLieOnOnePath) {
+  // Every place looks almost like the one 40 further: single lines are hardly distinct, but those that are
+  // right all lie on one path.
+  auto costs = walked_costs(100, 140, 20, 1, 2.5F, 7);
+  for (std::size_t q = 0; q < 60; ++q) costs.row(q)[q + 60] -= 2.2F;
+  const place::SearchMethod& method = search_method("lines");
+  const auto lines = search_surely(costs, method, {});
+  const auto matches = method.search(costs, {}).matches;
+  std::vector<double> scores;
+  for (const auto& match : matches) scores.push_back(match.score);
+  const auto alone = place::match_probabilities(scores, place::decoy_scores(costs, method, {}),
+                                                {.decoy_quantile = method.decoy_quantile});
+  const auto on_path = place::path_scores(costs, matches, {});
+  double with_path = 0, without = 0;
+  for (std::size_t q = 0; q < matches.size(); ++q) {
+    EXPECT_GE(*lines.matches[q].probability, alone.probability[q]) << q;
+    if (on_path[q].score < 0) {  // elsewhere rather than here
+      EXPECT_LE(*lines.matches[q].probability, std::max(alone.probability[q], 0.5)) << q;
+    }
+    const double off = static_cast<double>(*matches[q].reference) - static_cast<double>(q + 20);
+    if (q >= 60 || std::abs(off) > 2) continue;
+    with_path += *lines.matches[q].probability;
+    without += alone.probability[q];
+  }
+  EXPECT_GT(with_path, without);
 }
 
 TEST(SearchSurely, IsNoSurerThanASearchOfLogOdds) {

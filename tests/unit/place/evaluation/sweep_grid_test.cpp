@@ -39,7 +39,7 @@ TEST(SweepGrid, PutsACellsValuesIntoTheSettings) {
     EXPECT_THROW_WITH(place::settings_at(base, {{name, {value}}}, {value}), vo::Error, said);
   };
   refused("preview-width-px", "32", "--vary preview-width-px: cannot vary");
-  refused("compat", "openseqslam", "cannot vary");
+  refused("motion-file", "walk.tum", "cannot vary");
   refused("motion", "file", "cannot be swept");
   refused("motion", "feet", "motion: is 'feet'");
   refused("enhanse", "local", "enhanse: is no setting; expected enhance?");

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <place/evaluation/sweep.hpp>
+#include <place/place.hpp>
 #include <vo/base/error.hpp>
 
 namespace {
@@ -69,6 +70,29 @@ TEST_F(SweepTest, KeepsAsManyKeyframesWithoutMotion) {
   const double every = frames / count("sad");
   EXPECT_GE(count("none"), frames / (every + 0.5) - 2);
   EXPECT_LE(count("none"), frames / (every - 0.5) + 2);
+}
+
+TEST_F(SweepTest, RunsThePublishedProgramBesideOurs) {
+  input_.settings.motion = "none";
+  input_.settings.every = 4;
+  SweepResults results;
+  place::sweep(input_, {{"compat", {"none", "openseqslam"}}, {"sequence-length", {"10"}}}, results);
+  const auto ours = results.at({"none", "10"}), original = results.at({"openseqslam", "10"});
+  ASSERT_TRUE(ours && original);
+  EXPECT_EQ(ours->query_keyframes, original->query_keyframes);
+  EXPECT_NE(ours->max_f1_threshold, original->max_f1_threshold);
+
+  // The same as a run by itself.
+  place::Settings settings = input_.settings;
+  settings.search.reset();
+  settings.sequence_length = 10;
+  settings.compat = "openseqslam";
+  place::Route route = place::new_route(settings);
+  place::add(route, "reference", day_.walk, {}, settings);
+  const auto alone =
+      place::evaluate(place::localise(route, night_.walk, settings), input_.truth, {.tolerance_m = 1});
+  EXPECT_EQ(original->max_f1, alone.evaluation.best.f1);
+  EXPECT_EQ(original->auc_pr, alone.evaluation.auc_pr);
 }
 
 TEST_F(SweepTest, MakesDensitiesEqualIfAsked) {

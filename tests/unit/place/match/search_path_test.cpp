@@ -239,6 +239,46 @@ TEST(SearchPath, IsTheSameForAnyThreadCount) {
   for (std::size_t q = 0; q < one.size(); ++q) EXPECT_TRUE(test_support::same(one[q], four[q])) << q;
 }
 
+TEST(PathScores, OfOtherPlacesEqualBruteForce) {
+  const auto costs = walked_costs(25, 20, 2, 0.8, 2.0F, 4);
+  SearchOptions options;
+  options.sequence.uniqueness_window = 2;
+  std::vector<place::SequenceMatch> given(costs.queries);
+  for (std::size_t q = 0; q < costs.queries; ++q) {
+    if (q % 5 != 0) given[q].reference = (7 * q) % costs.references;
+  }
+  const auto scored = place::path_scores(costs, given, options);
+  const auto posteriors = brute_force_posteriors(costs, options);
+  ASSERT_EQ(scored.size(), given.size());
+  for (std::size_t q = 0; q < costs.queries; ++q) {
+    SCOPED_TRACE(q);
+    ASSERT_EQ(scored[q].reference, given[q].reference);
+    if (!given[q].reference) continue;
+    double inside = 0, outside = posteriors[q].back();
+    for (std::size_t r = 0; r < costs.references; ++r)
+      (std::max(r, *given[q].reference) - std::min(r, *given[q].reference) <= 2 ? inside : outside) +=
+          posteriors[q][r];
+    EXPECT_NEAR(scored[q].score, std::log(inside / outside), 1e-3);  // as above
+  }
+}
+
+TEST(PathScores, OfItsOwnMatchesAreTheSearchs) {
+  const auto costs = walked_costs(25, 20, 2, 0.8, 2.0F, 4);
+  const auto matches = place::search_path(costs, {}).matches;
+  const auto scored = place::path_scores(costs, matches, {});
+  for (std::size_t q = 0; q < matches.size(); ++q) EXPECT_TRUE(test_support::same(scored[q], matches[q]));
+}
+
+TEST(PathScores, RefuseWhatDoesNotFit) {
+  const auto costs = place::make_cost_matrix(3, 3);
+  std::vector<place::SequenceMatch> given(2);
+  EXPECT_THROW(place::path_scores(costs, given, {}), std::invalid_argument);
+  given.resize(3);
+  given[1].reference = 3;
+  EXPECT_THROW(place::path_scores(costs, given, {}), std::invalid_argument);
+  EXPECT_THAT(place::path_scores(place::make_cost_matrix(0, 4), {}, {}), IsEmpty());
+}
+
 TEST(SearchPath, RefusesOptionsThatAreNotValid) {
   const auto costs = place::make_cost_matrix(3, 3);
   EXPECT_THROW(place::search_path(costs, {.path = {.steps = {1, 1}}}), std::invalid_argument);

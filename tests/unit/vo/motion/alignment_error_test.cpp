@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -145,6 +146,27 @@ TEST(AlignmentErrors, AreTheSameForAnyThreadCount) {
   vo::set_thread_count(4);
   EXPECT_EQ(vo::mean_errors(vo::alignment_errors(images, times(60, 25))).error, one.error);
   vo::set_thread_count(0);
+}
+
+TEST(ErrorCourse, WorkedExample) {
+  // Five frames 0.1 s apart, one span; the last has no successor and takes its neighbour's. The usual error is
+  // (1 + 1 + 4 + 2) / 4 = 2. A window of 0.2 s holds a frame and its neighbours.
+  const vo::ErrorCourse course = vo::error_course(errors_of({1, 1, 4, 2, 9}, 1), times(5), {},
+                                                  {.spans = 1, .smoothing_s = 0.21, .high_error_mads = 2});
+  EXPECT_THAT(course.relative, ElementsAre(0.5, 0.5, 2, 1, 1));
+  ASSERT_EQ(course.smoothed.size(), 5U);
+  const double expected[] = {0.5, 1, 3.5 / 3, 4.0 / 3, 1};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(course.smoothed[i], expected[i], 1e-12) << i;
+  // Median 1; deviations 0.5, 0, 1/6, 1/3, 0, of median 1/6.
+  EXPECT_NEAR(course.limit, 1 + 2.0 / 6, 1e-12);
+}
+
+TEST(ErrorCourse, HasNoLimitWithoutAFrameThatCounts) {
+  const auto course = vo::error_course(errors_of({1, 2, 3}, 1), times(3), {true, true, true});
+  EXPECT_EQ(course.limit, std::numeric_limits<double>::infinity());
+  EXPECT_THAT(course.smoothed, Each(0.0));
+  EXPECT_THAT(vo::error_course({}, {}).smoothed, IsEmpty());
+  EXPECT_THROW(vo::error_course(errors_of({1, 1}, 1), times(3)), std::invalid_argument);
 }
 
 TEST(HighErrorWindows, AreThoseOfAPlantedTurn) {
