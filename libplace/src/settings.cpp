@@ -233,6 +233,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   std::string nearest;
   std::size_t fewest = name.size() / 2 + 1;
   for (const std::string& candidate : candidates) {
+    const std::size_t longer = std::max(name.size(), candidate.size());
+    if (longer - std::min(name.size(), candidate.size()) >= fewest) continue;  // it takes so many at least
     if (const std::size_t count = edits(name, candidate); count < fewest) {
       fewest = count;
       nearest = candidate;
