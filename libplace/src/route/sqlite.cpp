@@ -179,10 +179,10 @@ void Database::distrust(const std::filesystem::path& file) {
     return error ? 0 : static_cast<std::int64_t>(bytes);
   };
   const std::int64_t bytes = bytes_of(file) + bytes_of(file.string() + "-wal");
-  constexpr std::int64_t kStepsPerByte = 16, kSchema = 1 << 16,
+  constexpr std::int64_t kStepsPerByte = 16, kStepsOfAny = 100'000, kSchema = 1 << 16,
                          kLongest = 1'000'000'000;  // SQLite's own limit
   constexpr int kBetween = 1000;                    // steps from one look at the limit to the next
-  reading_ = std::make_unique<Reading>(Reading{2 * bytes + kSchema, kStepsPerByte * (bytes + kSchema)});
+  reading_ = std::make_unique<Reading>(Reading{2 * bytes + kSchema, kStepsPerByte * bytes + kStepsOfAny});
   sqlite3_progress_handler(
       database_.get(), kBetween,
       [](void* reading) {
