@@ -1,5 +1,7 @@
 #include "added_traverse.hpp"
 
+#include "json_file.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +23,7 @@ void print_added(const std::string& path, const place::Route& route, const place
                                 {"gait_share", nullptr},
                                 {"places", traverse.places.size()}};
     if (added.gait_share) json["gait_share"] = *added.gait_share;
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return;
   }
   fmt::print("{}: traverse '{}': {} frames, {:.1f} s, {} keyframes", path, traverse.name, traverse.frames,

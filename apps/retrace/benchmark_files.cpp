@@ -1,5 +1,6 @@
 #include "benchmark_files.hpp"
 
+#include "json_file.hpp"
 #include "methods_table.hpp"
 #include "report/compare_report.hpp"
 #include "report/page.hpp"
@@ -161,14 +162,14 @@ void write_benchmark(const SweepOptions& options, const std::vector<place::Sweep
                      const std::vector<SweptPair>& pairs) {
   const fs::path folder = options.output;
   vo::write_file(folder / "benchmark.csv", benchmark_csv(options, axes, pairs));
-  vo::write_file(folder / "benchmark.json", benchmark_json(options, axes, pairs).dump(2) + "\n");
+  vo::write_file(folder / "benchmark.json", json_text(benchmark_json(options, axes, pairs), 2) + "\n");
   vo::write_file(folder / "report.html", benchmark_report(options, axes, pairs));
 }
 
 void print_benchmark(const SweepOptions& options, const std::vector<place::SweepAxis>& axes,
                      const std::vector<SweptPair>& pairs) {
   if (options.common.json) {
-    fmt::print("{}\n", benchmark_json(options, axes, pairs).dump(2));
+    fmt::print("{}\n", json_text(benchmark_json(options, axes, pairs), 2));
     return;
   }
   fmt::print("{}", methods_text(methods_by_pairs(options, pairs, &ComparedMethod::best)));

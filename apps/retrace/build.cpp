@@ -1,6 +1,7 @@
 #include "added_traverse.hpp"
 #include "command.hpp"
 #include "import_route.hpp"
+#include "json_file.hpp"
 #include "progress_bar.hpp"
 #include "report/build_report.hpp"
 #include "run_directory.hpp"

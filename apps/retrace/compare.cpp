@@ -1,5 +1,6 @@
 #include "command.hpp"
 #include "comparison.hpp"
+#include "json_file.hpp"
 #include "report/compare_report.hpp"
 #include "run_directory.hpp"
 
@@ -38,11 +39,11 @@ void compare(const CompareOptions& options) {
   const Comparison comparison = compare_runs(options.folders, options.names, options.bootstrap);
   const ordered_json json = comparison_json(comparison);
   StagedFiles staged(folder);
-  vo::write_file(staged.path() / "comparison.json", json.dump(2) + "\n");
+  vo::write_file(staged.path() / "comparison.json", json_text(json, 2) + "\n");
   vo::write_file(staged.path() / "report.html", compare_report(comparison));
   staged.commit();
   if (options.common.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return;
   }
   fmt::print("  {:<20} {:<23} {:<23} {:<23}\n", "run", "max-F1", "area under the curve", "recall at 100 %");

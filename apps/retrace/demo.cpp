@@ -1,6 +1,7 @@
 #include "command.hpp"
 #include "demo_results.hpp"
 #include "demo_runs.hpp"
+#include "json_file.hpp"
 #include "run_directory.hpp"
 
 #include <chrono>
@@ -54,7 +55,7 @@ void demo(const DemoOptions& options) {
   const DemoResults results{options.seed, options.length_m,        vanilla,
                             normalised,   folder / "overview.png", took_s};
   if (options.common.json)
-    fmt::print("{}\n", demo_json(results).dump(2));
+    fmt::print("{}\n", json_text(demo_json(results), 2));
   else
     print_demo(results);
 }

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "json_file.hpp"
 #include "progress_bar.hpp"
 #include "run_directory.hpp"
 
@@ -90,7 +91,7 @@ void describe(const DescribeOptions& options) {
                                       {"descriptor", *settings.descriptor},
                                       {"keyframes", sampled.frames.size()},
                                       {"width", width}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return;
   }
   fmt::print("{}: {} keyframes of {} frames, {} numbers each; their frames are in {}\n", options.output,

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "json_file.hpp"
 #include "progress_bar.hpp"
 
 #include <memory>
@@ -71,7 +72,7 @@ void doctor(const DoctorOptions& options) {
   }
   const std::vector<place::Finding> findings = place::judge_recording(facts);
   if (options.common.json) {
-    fmt::print("{}\n", json_of(options, facts, findings).dump(2));
+    fmt::print("{}\n", json_text(json_of(options, facts, findings), 2));
     return;
   }
   fmt::print("{}: {} frames of {}x{} px, {:.1f} s: {}\n", options.walk.front(), facts.frames, facts.width_px,

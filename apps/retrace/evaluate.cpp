@@ -1,5 +1,6 @@
 #include "command.hpp"
 #include "evaluation_files.hpp"
+#include "json_file.hpp"
 #include "report/run_report.hpp"
 
 #include <filesystem>
@@ -37,7 +38,7 @@ void print_table(const place::RunEvaluation& run, const std::filesystem::path& f
 void evaluate(const EvaluateOptions& options) {
   const auto [run, metrics] = evaluate_folder(options.folder, options.truth);
   if (options.common.json) {
-    fmt::print("{}\n", metrics.dump(2));
+    fmt::print("{}\n", json_text(metrics, 2));
   } else {
     print_table(run, options.folder);
   }

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "json_file.hpp"
 #include "measured_odometry.hpp"
 #include "visual_odometry.hpp"
 
@@ -36,9 +37,9 @@ struct EvaluateOdometryOptions {
 void evaluate_kitti(const EvaluateOdometryOptions& options) {
   const fs::path folder = options.folders.front();
   const ordered_json metrics = kitti_metrics(folder, options.kitti_poses);
-  vo::write_file(folder / "kitti_metrics.json", metrics.dump(2) + "\n");
+  vo::write_file(folder / "kitti_metrics.json", json_text(metrics, 2) + "\n");
   if (options.common.json)
-    fmt::print("{}\n", metrics.dump(2));
+    fmt::print("{}\n", json_text(metrics, 2));
   else
     print_kitti_metrics(metrics);
 }
@@ -75,7 +76,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
     walks.push_back(measure_odometry(options.folders[i], truth, evaluation));
   }
   const OdometryMeasured all = pooled(walks);
-  const std::string metrics = odometry_metrics_json(all, options.evaluation).dump(2) + "\n";
+  const std::string metrics = json_text(odometry_metrics_json(all, options.evaluation), 2) + "\n";
   if (!options.output.empty()) {
     fs::create_directories(options.output);
     vo::write_file(fs::path(options.output) / "odometry_metrics.json", metrics);

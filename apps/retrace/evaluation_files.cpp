@@ -1,5 +1,6 @@
 #include "evaluation_files.hpp"
 
+#include "json_file.hpp"
 #include "report/run_data.hpp"
 #include "report/run_report.hpp"
 #include "report/run_view.hpp"
@@ -7,7 +8,6 @@
 #include "trajectory_metrics.hpp"
 
 #include <array>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -168,7 +168,7 @@ std::pair<place::RunEvaluation, ordered_json> evaluate_folder(const fs::path& fo
   ordered_json metrics = metrics_json(truth);
   if (!options.query_truth.empty()) metrics.update(trajectory_metrics(folder, options.query_truth));
   StagedFiles staged(folder);
-  vo::write_file(staged.path() / "metrics.json", metrics.dump(2) + "\n");
+  vo::write_file(staged.path() / "metrics.json", json_text(metrics, 2) + "\n");
   vo::write_file(staged.path() / "pr.csv", vo::to_csv<OperatingPoint>(truth.evaluation.curve, kCurveColumns));
   vo::write_file(staged.path() / "errors.csv", errors_csv(matches, truth));
   vo::write_file(staged.path() / evaluation_page(folder).filename(),
@@ -190,12 +190,13 @@ place::TimedQueries read_errors(const fs::path& folder) {
 }
 
 std::pair<double, std::string> read_tolerance(const fs::path& folder) {
-  std::ifstream file(folder / "metrics.json");
-  const auto json = ordered_json::parse(file, nullptr, false);
-  if (!json.is_object() || !json.contains("tolerance") || !json.contains("unit"))
+  const ordered_json json = read_json_object(folder / "metrics.json");
+  const std::optional<double> tolerance = number_in(json, "tolerance");
+  const std::optional<std::string> unit = text_in(json, "unit");
+  if (!tolerance || !(*tolerance >= 0) || !unit)
     throw vo::Error((folder / "metrics.json").string(), "has no tolerance",
                     "one written by `retrace evaluate`");
-  return {json["tolerance"].get<double>(), json["unit"].get<std::string>()};
+  return {*tolerance, *unit};
 }
 
 }  // namespace retrace

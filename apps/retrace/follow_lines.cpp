@@ -1,5 +1,7 @@
 #include "follow_lines.hpp"
 
+#include "json_file.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -46,7 +48,7 @@ std::string follow_line(const place::Position& position) {
     if (position.lag_place) put_place(earlier, *position.lag_place);
     json["lag"] = std::move(earlier);
   }
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string event_line(const place::FollowEvent& event) {
@@ -56,7 +58,7 @@ std::string event_line(const place::FollowEvent& event) {
   if (!event.name.empty()) json["name"] = event.name;
   if (event.distance_m) json["distance_m"] = rounded_to(*event.distance_m, kHundredths);
   if (event.turn_deg) json["turn_deg"] = rounded_to(*event.turn_deg, 1);
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace retrace

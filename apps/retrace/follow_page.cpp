@@ -1,5 +1,6 @@
 #include "follow_page.hpp"
 
+#include "json_file.hpp"
 #include "report/chart.hpp"
 #include "report/page.hpp"
 
@@ -78,7 +79,7 @@ ordered_json player_moment(const place::Position& position, const std::vector<st
 }
 
 std::string player_text(const ordered_json& json) {
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace retrace

@@ -1,5 +1,6 @@
 #include "import_route.hpp"
 
+#include "json_file.hpp"
 #include "run_directory.hpp"
 
 #include <filesystem>
@@ -24,7 +25,7 @@ void import_route(const std::string& folder, const std::string& output, const Co
   place::write_route(output, route);
   const std::size_t traverses = route.traverses.size();
   if (common.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"route", output}, {"traverses", traverses}}.dump(2));
+    fmt::print("{}\n", json_text({{"route", output}, {"traverses", traverses}}, 2));
   } else {
     fmt::print("{}: {} traverse{} from {}\n", output, traverses, traverses == 1 ? "" : "s", folder);
   }

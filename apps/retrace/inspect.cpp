@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "json_file.hpp"
 #include "route_contents.hpp"
 
 #include <memory>
@@ -28,7 +29,7 @@ std::function<void()> declare_inspect(Arguments& arguments) {
     const place::Route route = place::read_route(options->route);
     if (!options->folder.empty()) place::write_route_folder(options->folder, route);
     if (options->common.json) {
-      fmt::print("{}\n", route_json(options->route, route).dump(2));
+      fmt::print("{}\n", json_text(route_json(options->route, route), 2));
     } else {
       print_route(options->route, route);
     }

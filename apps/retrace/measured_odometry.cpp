@@ -1,5 +1,6 @@
 #include "measured_odometry.hpp"
 
+#include "json_file.hpp"
 #include "report/odometry_report.hpp"
 #include "run_directory.hpp"
 
@@ -31,7 +32,7 @@ OdometryMeasured measure_odometry(const std::filesystem::path& folder, const Wal
   }
   StagedFiles staged(folder);
   vo::write_file(staged.path() / "odometry_metrics.json",
-                 odometry_metrics_json(measured, evaluation).dump(2) + "\n");
+                 json_text(odometry_metrics_json(measured, evaluation), 2) + "\n");
   const OdometryTruth for_report{.poses = truth.walk.poses,
                                  .map_path = truth.map_path,
                                  .map_image = known.map_image,

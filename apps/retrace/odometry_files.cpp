@@ -1,5 +1,6 @@
 #include "odometry_files.hpp"
 
+#include "json_file.hpp"
 #include "report/alignment_data.hpp"
 #include "report/odometry_report.hpp"
 #include "report/run_data.hpp"
@@ -256,7 +257,7 @@ WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, con
                  vo::to_tum(trajectory, fmt::format("pose of each frame since the first, {} and radians",
                                                     walked.metric ? "metres" : "units of no known length")));
   if (extras.visual_odometry) write_visual_odometry(walk, files);
-  std::string text = json.dump(2) + "\n";
+  std::string text = json_text(json, 2) + "\n";
   vo::write_file(files / "summary.json", text);
   vo::write_file(files / "config.toml", to_toml(settings));
   vo::write_file(files / kRunDataFile,

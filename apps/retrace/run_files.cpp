@@ -1,5 +1,6 @@
 #include "run_files.hpp"
 
+#include "json_file.hpp"
 #include "report/kept_matrices.hpp"
 #include "report/matrix_picture.hpp"
 #include "report/run_data.hpp"
@@ -279,14 +280,14 @@ WrittenRun localise_into(const fs::path& folder, const place::Route& route, cons
   ordered_json about = summary(route, route_path, walk, run);
   about["processes"] = stored != nullptr ? stored->team->size() : 1;
   if (shards.size() > 1) about["shards"] = std::move(shards);
-  std::string text = about.dump(2) + "\n";
+  std::string text = json_text(about, 2) + "\n";
   StagedFiles staged(folder);
   vo::write_file(staged.path() / "matches.csv", place::to_csv(run.matches));
   put_trajectory(run.drift, route, run.matches, staged.path(), walk.start_utc_s);
   vo::write_file(staged.path() / "summary.json", text);
   vo::write_file(staged.path() / "config.toml", to_toml(run.settings));
   const ordered_json data = run_data(route, walk, run, keeper.matrices());
-  vo::write_file(staged.path() / kRunDataFile, data.dump());
+  vo::write_file(staged.path() / kRunDataFile, json_text(data));
   vo::write_file(staged.path() / "report.html", run_report(staged.path(), data));
   write_matrices(staged.path(), keeper.matrices(), route, run.matches, whole_matrices);
   std::vector<std::string> stale{"metrics.json", "pr.csv", "errors.csv"};  // of other matches

@@ -13,6 +13,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Files and folders of this name in the working folder and beside a route, whatever folder the route says: a
+/// path is not opened because it stands in a database.
+std::vector<fs::path> files_near(const fs::path& route, const fs::path& named) {
+  std::vector<fs::path> files;
+  const fs::path name = named.filename();
+  if (name.empty() || name == "." || name == "..") return files;
+  for (const fs::path& folder : {fs::path(), route.parent_path()}) {
+    const fs::path file = folder / name;
+    if (fs::is_regular_file(file) || fs::is_directory(file)) files.push_back(file);
+  }
+  return files;
+}
+
 bool is_it(const Recording& recording, const place::Traverse& traverse) {
   try {
     const auto source = vo::open_frame_source(recording.files, recording.options);
@@ -68,13 +81,23 @@ vo::Camera camera_of(const place::Settings& settings, int width_px, int height_p
 }
 
 std::optional<Recording> recording_near(const fs::path& route, const place::Traverse& traverse) {
-  for (const fs::path& folder : {fs::path(), route.parent_path()}) {
-    const fs::path file = folder / traverse.source;
-    if (traverse.source.empty() || !fs::exists(file)) continue;
+  for (const fs::path& file : files_near(route, traverse.source)) {
     Recording recording{{file.string()}, reading_of(traverse.settings), traverse.frames};
     if (is_it(recording, traverse)) return recording;
   }
   return std::nullopt;
+}
+
+vo::Camera camera_near(const fs::path& route, const place::Traverse& traverse) {
+  place::Settings settings = traverse.settings;
+  if (settings.camera) {
+    const std::vector<fs::path> files = files_near(route, *settings.camera);
+    if (files.empty())
+      throw vo::Error(*settings.camera, fmt::format("is not beside {}", route.string()),
+                      "the calibration of the reference's camera there, or in the working folder");
+    settings.camera = files.front().string();
+  }
+  return camera_of(settings, traverse.frame_width_px, traverse.frame_height_px);
 }
 
 }  // namespace retrace

@@ -32,4 +32,8 @@ vo::Camera camera_of(const place::Settings& settings, int width_px, int height_p
 /// a file of that name with pictures of another size, or of another length, is another recording.
 std::optional<Recording> recording_near(const std::filesystem::path& route, const place::Traverse& traverse);
 
+/// `camera_of` a traverse, its calibration read from the working folder or beside the route. Throws
+/// `vo::Error` if it is in neither.
+vo::Camera camera_near(const std::filesystem::path& route, const place::Traverse& traverse);
+
 }  // namespace retrace

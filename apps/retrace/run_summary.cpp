@@ -1,28 +1,23 @@
 #include "run_summary.hpp"
 
+#include "json_file.hpp"
+
 #include <algorithm>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 namespace retrace {
 
 RunSummary read_run_summary(const std::filesystem::path& folder) {
-  std::ifstream file(folder / "summary.json");
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  RunSummary summary;
-  if (!json.is_object()) return summary;
-  const auto has = [&](const char* name, auto of_type) { return json.contains(name) && of_type(json[name]); };
-  const auto is_text = [](const nlohmann::json& value) { return value.is_string(); };
-  if (has("query", is_text)) summary.query = json["query"];
-  if (has("route", is_text)) summary.route = json["route"];
-  if (has("query_frames", [](const auto& value) { return value.is_number_unsigned(); }))
-    summary.query_frames = json["query_frames"];
-  if (has("query_start_utc_s", [](const auto& value) { return value.is_number(); }))
-    summary.query_start_utc_s = json["query_start_utc_s"].get<double>();
-  if (has("query_frames_after_gaps", [](const auto& value) { return value.is_array(); })) {
-    for (const nlohmann::json& frame : json["query_frames_after_gaps"])
-      if (frame.is_number_integer()) summary.frames_after_gaps.push_back(frame);
+  const nlohmann::ordered_json json = read_json_object(folder / "summary.json");
+  RunSummary summary{.query = text_in(json, "query").value_or(""),
+                     .route = text_in(json, "route").value_or(""),
+                     .query_frames = static_cast<std::size_t>(count_in(json, "query_frames").value_or(0)),
+                     .query_start_utc_s = number_in(json, "query_start_utc_s"),
+                     .frames_after_gaps = {}};
+  for (const double frame : numbers_in(json, "query_frames_after_gaps")) {
+    if (frame >= 0 && frame < static_cast<double>(summary.query_frames))
+      summary.frames_after_gaps.push_back(static_cast<std::int64_t>(frame));
   }
   return summary;
 }

@@ -90,8 +90,7 @@ SideVideo side_video_of(const SideVideoInput& input, const place::Route& route,
     if (!used) continue;
     side = shown(traverse, given == files.end() ? std::vector<std::string>() : given->second, input.route,
                  input.width_px);
-    if (video.query_camera)
-      side.camera = camera_of(traverse.settings, traverse.frame_width_px, traverse.frame_height_px);
+    if (video.query_camera) side.camera = camera_near(input.route, traverse);
   }
   return video;
 }

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "json_file.hpp"
 #include "progress_bar.hpp"
 
 #include <filesystem>
@@ -38,7 +39,7 @@ void simulate_walk(const SimulateOptions& options) {
                                       {"duration_s", last.time_s},
                                       {"distance_m", walked_m},
                                       {"steps", last.steps}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
   } else {
     fmt::print("{}: {} frames, {:.1f} s, {:.1f} m along the route, {} steps; the truth is in {}\n", video,
                recording.frames, last.time_s, walked_m, last.steps, truth);

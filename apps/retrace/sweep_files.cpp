@@ -1,5 +1,6 @@
 #include "sweep_files.hpp"
 
+#include "json_file.hpp"
 #include "methods_table.hpp"
 #include "report/heat_picture.hpp"
 #include "report/sweep_report.hpp"
@@ -126,7 +127,7 @@ void print_part(const SweepOptions& options, const place::SweepPart& part, std::
                 std::size_t of_all) {
   if (options.common.json) {
     const ordered_json json{{"part", part.number}, {"parts", part.of}, {"cells", found}, {"of", of_all}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return;
   }
   fmt::print("part {} of {}: {} of {} cells; with all parts done, --merge puts them together\n", part.number,
@@ -148,7 +149,7 @@ void write_sweep_report(const SweepOptions& options, const std::vector<place::Sw
                         const place::SweepResults& results,
                         const std::vector<place::ComparedMethod>& methods) {
   const fs::path folder = options.output;
-  vo::write_file(folder / "methods.json", methods_json(axes, options.compare, methods).dump(2) + "\n");
+  vo::write_file(folder / "methods.json", json_text(methods_json(axes, options.compare, methods), 2) + "\n");
   vo::write_file(
       folder / "report.html",
       sweep_report(axes, results, fmt::format("{} on {}", shown(options.query), shown(options.reference)),
@@ -169,7 +170,7 @@ void print_sweep(const SweepOptions& options, const std::vector<place::SweepAxis
     if (best) json["best"] = cell_json(axes, *best, results.at(*best));
     for (const place::SweepCell& cell : place::all_cells(axes))
       json["cells"].push_back(cell_json(axes, cell, results.at(cell)));
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return;
   }
   fmt::print("{}", methods_text(methods_table(axes, options.compare, methods)));

@@ -5,6 +5,7 @@
 #include "side_video.hpp"
 #include "side_video_input.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -39,6 +40,10 @@ void video(VideoOptions options) {
   if (summary.query_frames == 0)
     throw vo::Error((folder / "summary.json").string(), "does not say how many frames the query has",
                     "a folder written by `retrace localise`");
+  if (matches.back().query_frame >= static_cast<std::int64_t>(summary.query_frames))
+    throw vo::Error((folder / "matches.csv").string(),
+                    fmt::format("has query_frame {}", matches.back().query_frame),
+                    fmt::format("the {} frames that summary.json says the query has", summary.query_frames));
   if (options.input.route.empty()) options.input.route = summary.route;
   const place::Route route = place::read_route(options.input.route, {.view_points = false});
   place::locate(matches, route);

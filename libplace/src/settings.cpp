@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
+#include <vo/io/text_file.hpp>
 
 namespace place {
 namespace {
@@ -65,6 +66,9 @@ void check_number(const Setting& setting, double value) {
 
 void check_text(const Setting& setting, const std::string& value) {
   if (value.empty()) refuse(setting, value, "a value");
+  // What no line of a settings file could hold, and no name of a file that people type.
+  if (std::ranges::any_of(value, [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
+    refuse(setting, vo::printable(value), "text without control characters");
   if (!setting.choices.empty() && !is_one_of(value, setting.choices))
     refuse(setting, value, "one of " + with_commas(setting.choices));
 }
@@ -233,6 +237,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   std::string nearest;
   std::size_t fewest = name.size() / 2 + 1;
   for (const std::string& candidate : candidates) {
+    const std::size_t longer = std::max(name.size(), candidate.size());
+    if (longer - std::min(name.size(), candidate.size()) >= fewest) continue;  // it takes so many at least
     if (const std::size_t count = edits(name, candidate); count < fewest) {
       fewest = count;
       nearest = candidate;

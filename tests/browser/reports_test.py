@@ -3,6 +3,7 @@
 dark and on paper. Screenshots stay in the folder RETRACE_SCREENSHOTS. Exits 77, skipped, where there is no Chromium."""
 
 import base64
+import json
 import os
 import pathlib
 import shutil
@@ -33,6 +34,9 @@ if not CHROMIUM or not CHROMEDRIVER:
     print("skipped: chromium and chromium-driver are not installed")
     sys.exit(SKIPPED)
 
+# What would run if any text of it came into a page as more than text, and the same for a file's name.
+PAYLOAD = "</script><script>window.ran = 1</script>\"'><img src=x onerror='window.ran = 1'><svg onload='window.ran = 1'>"
+FILE_PAYLOAD = "<img src=x onerror='window.ran = 1'>\"<svg onload=window.ran=1>"
 PHONE = 390  # px, the width of a common one
 SCREENSHOTS = pathlib.Path(os.environ.get("RETRACE_SCREENSHOTS", "screenshots"))
 
@@ -401,6 +405,81 @@ class ReportsTest(unittest.TestCase):
         check("compare", *runs, "-o", self.folder / "comparison", "--segment-s", 2)
         self.open(self.folder / "comparison/report.html", charts=4, matrices=2)
         self.assertEqual(len(self.all("dl.headline > div")), 2)
+
+    def nothing_of_it_runs(self, path, times):
+        """The payload is there as text, so many times at least, and nothing of it ran, was built or was fetched."""
+        self.driver.get_log("performance")
+        self.driver.get(path.as_uri())
+        fetched = [line["message"] for line in self.driver.get_log("performance") if '"Network.requestWillBeSent"' in line["message"]]
+        for message in fetched:
+            self.assertRegex(message, r'"url":"(file|data|about|chrome):')
+        self.assertIsNone(self.script("return window.ran ?? null"))
+        self.assertEqual(self.all("main svg, main [onerror], main [onload], main script:not([type='application/json'])"), [])
+        for picture in self.all("img"):
+            self.assertRegex(picture.get_attribute("src") or "data:", "^data:")
+        shown = self.script("""return document.body.textContent + document.title
+            + [...document.querySelectorAll('[aria-label]')].map(e => e.ariaLabel).join(' ')""")
+        self.assertGreaterEqual(shown.count("window.ran"), times)
+
+    def edited(self, path, change):
+        document = json.loads(path.read_text())
+        change(document)
+        path.write_text(json.dumps(document))
+
+    def test_text_of_files_is_text_only(self):
+        """Script in the names of files and traverses, in settings, cells and warnings of a run stays text in its reports."""
+        walk, route = self.folder / (FILE_PAYLOAD + ".mp4"), self.folder / (FILE_PAYLOAD + ".db")
+        shutil.copy(self.walks.rain, walk)
+        check("build", self.walks.day, "-o", route, "--truth", self.folder / "day/truth.csv", "--name", PAYLOAD)
+        run = self.folder / FILE_PAYLOAD
+        check("localise", walk, "--route", route, "-o", run)
+        self.nothing_of_it_runs(run / "report.html", 4)  # both names, the traverse's in titles and figures
+
+        config = run / "config.toml"
+        config.write_text(config.read_text() + f"\n# {PAYLOAD}\nmask = \"{PAYLOAD}\"\n{PAYLOAD} = 1\n")
+        self.edited(run / "summary.json", lambda summary: summary["warnings"].append(PAYLOAD))
+
+        def from_elsewhere(data):
+            data["traverses"][0]["pictures"]["raw"] = "https://localhost/raw.png"
+            data["pairs"][0]["query"] = (SCREENSHOTS / "none.png").resolve().as_uri()
+            data["pairs"][0][PAYLOAD] = PAYLOAD
+            data["unit"] = PAYLOAD
+            data["motion"] = PAYLOAD
+        self.edited(run / "report_data.json", from_elsewhere)
+        self.walks.evaluated(run)
+        self.nothing_of_it_runs(run / "report.html", 6)
+
+        check("compare", run, self.walks.evaluated(self.walks.localised("plain")), "-o", self.folder / "compared", "--segment-s", 2)
+        self.nothing_of_it_runs(self.folder / "compared/report.html", 3)
+
+        odometry = self.folder / "<svg onload=window.ran=1>"
+        check("odometry", walk, "-o", odometry)
+        def named(summary):
+            summary["warnings"].append(PAYLOAD)
+            summary["unit"] = summary["step_signal"] = PAYLOAD
+        self.edited(odometry / "summary.json", named)
+        frames = (odometry / "frames.csv").read_text().splitlines()
+        source = frames[0].split(",").index("source")
+        cells = frames[2].split(",")
+        cells[source] = '"' + PAYLOAD.replace('"', '""') + '"'
+        (odometry / "frames.csv").write_text("\n".join(frames[:2] + [",".join(cells)] + frames[3:]) + "\n")
+        check("evaluate-odometry", odometry, "--truth", self.folder / "rain/truth.csv")
+        self.nothing_of_it_runs(odometry / "report.html", 3)
+
+    def test_a_page_may_fetch_nothing(self):
+        """Whatever came to run in a page could send nothing away: the browser is told to refuse it."""
+        self.driver.get((self.walks.run / "report.html").as_uri())
+        for attempt, rule in (("new Image().src = 'http://localhost:1/x.png'", "img-src"),
+                              ("fetch('http://localhost:1/').catch(() => 0)", "connect-src"),
+                              ("document.body.append(Object.assign(document.createElement('iframe'), {src: 'http://localhost:1/'}))",
+                               "frame-src")):
+            refused = self.driver.execute_async_script(f"""
+                const done = arguments[0];
+                addEventListener('securitypolicyviolation', event => done(event.effectiveDirective), {{once: true}});
+                setTimeout(() => done('nothing'), 5000);
+                {attempt};""")
+            self.assertEqual(refused, rule)
+        self.driver.get_log("performance")  # of what was asked for and refused
 
     def test_hovering_the_curve_shows_the_threshold(self):
         run = self.walks.evaluated(self.walks.localised("hovered"))

@@ -91,6 +91,34 @@ class CliTest(unittest.TestCase):
 
     # ---- the road ----
 
+    def test_names_that_are_no_utf8_are_names(self):
+        walk = os.fsencode(self.folder) + b"/caf\xe9"
+        shutil.copytree(os.fsencode(self.walks.query), walk)
+        run, route = self.folder / "run", self.folder / "route.db"
+        for arguments in (["localise", os.fsdecode(walk), "--route", self.walks.route, "-o", run],
+                          ["build", os.fsdecode(walk), "-o", route], ["inspect", route, "--json"]):
+            done = subprocess.run([RETRACE, *map(str, arguments)], capture_output=True, timeout=600)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("caf\N{REPLACEMENT CHARACTER}", json.loads((run / "summary.json").read_text())["query"])
+        self.assertEqual(json.loads(done.stdout)["traverses"][0]["source"], "caf\N{REPLACEMENT CHARACTER}")
+
+    def test_says_what_is_wrong_with_a_runs_files(self):
+        """A line, where a figure was drawn from what is not there."""
+        run = self.folder / "run"
+        shutil.copytree(self.walks.run, run)
+        found = (run / "matches.csv").read_text().splitlines()
+        (run / "matches.csv").write_text("\n".join([found[0], found[2], found[1]]) + "\n")
+        self.refused("video", run, "-o", self.folder / "side.mp4", says="a row for each query keyframe, in order")
+        (run / "matches.csv").write_text("\n".join(found) + "\n")
+        (run / "summary.json").write_text('{"queries": "many", "query": 7, "query_frames": 3, "warnings": [null]}')
+        self.refused("video", run, "-o", self.folder / "side.mp4", says="the 3 frames that summary.json says the query has")
+        (run / "report_data.json").write_text('{"query": 1, "traverses": [{"frame": "x", "pictures": 3}, 4], "pairs": {}}')
+        pairs = self.folder / "pairs.csv"
+        pairs.write_text("query_frame,reference_frame\n0,0\n100,100\n")
+        check("evaluate", run, "--pairs", pairs, "--tolerance-frames", 5)
+        (run / "metrics.json").write_text('{"tolerance": "x", "unit": 3}')
+        self.refused("compare", run, run, "-o", self.folder / "compared", says="has no tolerance", leaves=["compared"])
+
     def test_finds_the_walk_and_writes_the_contract_s_files(self):
         found = rows(self.walks.run / "matches.csv")
         self.assertEqual(list(found[0]), MATCH_COLUMNS + NAMES)

@@ -24,6 +24,14 @@ class TextsTest(unittest.TestCase):
         self.assertEqual(shown.group(1), program)
         self.assertLessEqual(len(program.splitlines()), 25)
 
+    def test_no_shell_is_called(self):
+        """Names of files and what is in them are never part of a command line."""
+        calls = re.compile(r"\b(?:system|popen|wordexp|execl[pe]?)\s*\(|\"(?:/bin/)?sh\"")
+        sources = [path for room in ("libvo", "libplace", "apps") for path in sorted((ROOT / room).rglob("*.[ch]pp"))]
+        self.assertGreater(len(sources), 300)
+        for path in sources:
+            self.assertEqual(calls.findall(path.read_text(encoding="utf-8")), [], path)
+
     def test_links_lead_somewhere(self):
         self.assertIn(ROOT / "README.md", TEXTS)
         for text in TEXTS:

@@ -1,5 +1,7 @@
 #include "chart.hpp"
 
+#include "json_file.hpp"
+
 #include <cmath>
 #include <cstdlib>
 
@@ -70,7 +72,7 @@ std::string to_json(const Chart& chart) {
                        {"top", b->top},
                        {"bottom", b->bottom}};
   }
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace retrace

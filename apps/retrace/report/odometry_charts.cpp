@@ -238,7 +238,8 @@ std::optional<Chart> speed_chart(const OdometryView& walk) {
   if (std::ranges::find(frames.source, "vo") == frames.source.end())
     return chart;  // everything is from steps
   for (const auto& [source, shown] : kShaded) {
-    auto shaded = spans(frames.time_s, [&](std::size_t i) { return frames.source[i] == source; });
+    auto shaded =
+        spans(frames.time_s, [&, &name = source](std::size_t i) { return frames.source[i] == name; });
     if (!shaded.empty())
       chart.bands.push_back({.name = shown.first, .colour = shown.second, .spans = std::move(shaded)});
   }

@@ -1,13 +1,18 @@
 #include "odometry_view.hpp"
 
+#include "json_file.hpp"
 #include "report/run_data.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <vo/base/degrees.hpp>
+#include <vo/base/error.hpp>
 #include <vo/io/csv.hpp>
 #include <vo/io/trajectory_io.hpp>
 
@@ -23,30 +28,19 @@ std::vector<double> or_nan(const std::vector<std::optional<double>>& values) {
   return numbers;
 }
 
-template <typename T>
-std::optional<T> number(const ordered_json& json, const char* name) {
-  if (!json.contains(name) || !json[name].is_number()) return {};
-  return json[name].get<T>();
-}
-
 OdometrySummary read_summary(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file) return {};
-  const ordered_json json = ordered_json::parse(file, nullptr, false);
-  if (!json.is_object()) return {};
-  OdometrySummary summary{.walk = json.value("walk", std::string{}),
-                          .step_signal = json.value("step_signal", "orientation"),
-                          .unit = json.value("unit", "m"),
-                          .delta_min = number<double>(json, "delta_min"),
-                          .distance = number<double>(json, "distance"),
-                          .step_length_m = number<double>(json, "step_length_m"),
-                          .duration_s = number<double>(json, "duration_s"),
-                          .frames = number<std::int64_t>(json, "frames"),
-                          .frames_bridged = number<std::int64_t>(json, "frames_bridged"),
-                          .steps_bridged = number<std::int64_t>(json, "steps_bridged")};
-  for (const auto& warning : json.value("warnings", ordered_json::array()))
-    summary.warnings.push_back(warning.get<std::string>());
-  return summary;
+  const ordered_json json = read_json_object(path);
+  return {.walk = text_in(json, "walk").value_or(""),
+          .step_signal = text_in(json, "step_signal").value_or("orientation"),
+          .unit = text_in(json, "unit").value_or("m"),
+          .delta_min = number_in(json, "delta_min"),
+          .distance = number_in(json, "distance"),
+          .step_length_m = number_in(json, "step_length_m"),
+          .duration_s = number_in(json, "duration_s"),
+          .frames = count_in(json, "frames"),
+          .frames_bridged = count_in(json, "frames_bridged"),
+          .steps_bridged = count_in(json, "steps_bridged"),
+          .warnings = texts_in(json, "warnings")};
 }
 
 }  // namespace
@@ -62,7 +56,13 @@ OdometryView read_odometry(const fs::path& folder) {
       return table.has(column) ? or_nan(table.optional_numbers(column))
                                : std::vector<double>(table.rows(), NAN);
     };
-    walk.frames = {.time_s = table.numbers("time_s"),
+    const std::vector<double> time_s = table.numbers("time_s");
+    const auto back = std::ranges::is_sorted_until(time_s);
+    if (back != time_s.end())
+      throw vo::Error(table.where(static_cast<std::size_t>(back - time_s.begin())),
+                      fmt::format("has the time {} s after {} s", *back, *std::prev(back)),
+                      "frames in order");
+    walk.frames = {.time_s = time_s,
                    .displacement = table.numbers("displacement"),
                    .orientation_deg = or_nan(table.optional_numbers("orientation_deg")),
                    .matches = table.numbers("matches"),

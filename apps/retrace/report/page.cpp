@@ -66,6 +66,14 @@ std::string without_comment_marks(std::string_view text) {
   return plain;
 }
 
+/// What the browser may do for a page: show what is in it, ask the server that it came from, if any, for
+/// more, and fetch or send nothing else.
+constexpr std::string_view kPagePolicy =
+    "default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
+    "connect-src "
+    "'self'; "
+    "form-action 'none'; base-uri 'none'";
+
 bool is_number(std::string_view cell) {
   return !cell.empty() && cell.find_first_not_of("0123456789.-+e %[],") == std::string_view::npos;
 }
@@ -244,9 +252,9 @@ std::string Page::html() const {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n"
+      "href=\"data:,\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<title>{}</title>\n"
       "<style>\n{}</style>\n</head>\n<body>\n<main>\n{}</main>\n",
-      title_, assets::style(), body_);
+      kPagePolicy, title_, assets::style(), body_);
   if (figures_ > 0) {
     html += "<noscript><p>The figures need JavaScript; the numbers do not.</p></noscript>\n";
     html += fmt::format("<!-- Chart.js, of which this is the licence:\n{}\n-->\n<script>{}</script>\n",

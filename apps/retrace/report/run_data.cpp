@@ -1,11 +1,11 @@
 #include "run_data.hpp"
 
+#include "json_file.hpp"
 #include "report/matrix_picture.hpp"
 #include "report/page.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 #include <set>
 
@@ -105,10 +105,7 @@ ordered_json run_data(const place::Route& route, const vo::Walk& walk, const pla
 }
 
 ordered_json read_run_data(const std::filesystem::path& folder) {
-  std::ifstream file(folder / kRunDataFile);
-  if (!file) return ordered_json::object();
-  ordered_json json = ordered_json::parse(file, nullptr, false);
-  return json.is_object() ? json : ordered_json::object();
+  return read_json_object(folder / kRunDataFile);
 }
 
 }  // namespace retrace

@@ -1,21 +1,37 @@
 #include "run_pictures.hpp"
 
+#include "json_file.hpp"
 #include "report/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include <nlohmann/json.hpp>
 
 namespace retrace {
 using nlohmann::ordered_json;
 
+namespace {
+
+/// Pictures that are part of the page; a figure shows nothing from elsewhere.
+ordered_json pictures_in(const ordered_json& json, std::initializer_list<const char*> names) {
+  ordered_json pictures = ordered_json::object();
+  for (const char* name : names) {
+    const std::optional<std::string> source = text_in(json, name);
+    if (source && source->starts_with("data:image/")) pictures[name] = *source;
+  }
+  return pictures;
+}
+
+}  // namespace
+
 std::vector<MatrixFigure> matrix_figures(const RunView& run) {
   std::vector<MatrixFigure> figures;
   for (std::size_t i = 0; i < run.traverses.size(); ++i) {
-    const ordered_json& traverse = run.data["traverses"][i];
-    if (!traverse.contains("pictures") || traverse["pictures"].empty()) continue;
+    ordered_json pictures = pictures_in(member(run.data["traverses"][i], "pictures"), {"enhanced", "raw"});
     const std::vector<double>& frames = run.traverses[i].frame;
+    if (pictures.empty() || frames.empty()) continue;
     const std::vector<double> keyframe = upto(frames.size());
     ordered_json matches = ordered_json::array(), truth = ordered_json::array();
     for (std::size_t q = 0; q < run.matches.size(); ++q) {
@@ -35,24 +51,26 @@ std::vector<MatrixFigure> matrix_figures(const RunView& run) {
     }
     ordered_json spec{{"queries", run.matches.size()},
                       {"references", frames.size()},
-                      {"reference_frames", traverse["frame"]},
-                      {"pictures", traverse["pictures"]},
+                      {"reference_frames", rounded(frames)},
+                      {"pictures", std::move(pictures)},
                       {"matches", std::move(matches)}};
     if (!run.true_frame.empty()) spec["truth"] = std::move(truth);
-    figures.push_back({run.traverses[i].name, spec.dump()});
+    figures.push_back({run.traverses[i].name, json_text(spec)});
   }
   return figures;
 }
 
 std::optional<std::string> strip_json(const RunView& run) {
-  if (!run.data.contains("pairs")) return {};
+  const ordered_json& pairs = member(run.data, "pairs");
+  if (!pairs.is_array()) return {};
   ordered_json spec{{"unit", "m"}, {"pairs", ordered_json::array()}};
   if (run.truth != nullptr && run.truth->unit == place::ErrorUnit::kFrames) spec["unit"] = "frames";
-  for (const ordered_json& stored : run.data["pairs"]) {
-    const auto q = stored["keyframe"].get<std::size_t>();
+  for (const ordered_json& stored : pairs) {
+    const auto q = static_cast<std::size_t>(count_in(stored, "keyframe").value_or(-1));
     if (q >= run.matches.size() || !run.matches[q].place) continue;
     const place::Match& match = run.matches[q];
-    ordered_json pair = stored;
+    ordered_json pair = pictures_in(stored, {"query", "reference"});
+    pair["keyframe"] = q;
     pair["query_frame"] = match.query_frame;
     pair["time_s"] = rounded(match.query_time_s);
     pair["reference_frame"] = match.place->frame;
@@ -66,7 +84,7 @@ std::optional<std::string> strip_json(const RunView& run) {
     spec["pairs"].push_back(std::move(pair));
   }
   if (spec["pairs"].empty()) return {};
-  return spec.dump();
+  return json_text(spec);
 }
 
 }  // namespace retrace

@@ -1,8 +1,9 @@
 #include "run_view.hpp"
 
+#include "json_file.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -15,36 +16,45 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::vector<double> numbers(const ordered_json& json, const char* name) {
-  std::vector<double> values;
-  if (!json.contains(name)) return values;
-  for (const ordered_json& value : json[name])
-    values.push_back(value.is_number() ? value.get<double>() : NAN);
-  return values;
+/// Numbers that a figure may have along an axis: each after the one before, or with it, and small enough that
+/// steps between them count.
+bool forwards(const std::vector<double>& values) {
+  constexpr double kMost = 1e10;
+  return std::ranges::all_of(values, [](double value) { return std::abs(value) <= kMost; }) &&
+         std::ranges::is_sorted(values);
 }
 
-WalkColumns columns(const ordered_json& json, std::string name) {
-  return {.name = std::move(name),
-          .frame = numbers(json, "frame"),
-          .time_s = numbers(json, "time_s"),
-          .displacement = numbers(json, "displacement"),
-          .distance_m = numbers(json, "distance_m"),
-          .x_m = numbers(json, "x_m"),
-          .y_m = numbers(json, "y_m")};
-}
-
-std::optional<double> number_in(const ordered_json& json, const char* name) {
-  if (!json.contains(name) || !json[name].is_number()) return {};
-  return json[name].get<double>();
+/// The columns of a walk; those are empty that are not of one length or, of frames and times, not in order.
+WalkColumns columns(const ordered_json& json, std::string name, bool query) {
+  WalkColumns walk{.name = std::move(name),
+                   .frame = numbers_in(json, "frame"),
+                   .time_s = numbers_in(json, "time_s"),
+                   .displacement = numbers_in(json, "displacement"),
+                   .distance_m = numbers_in(json, "distance_m"),
+                   .x_m = numbers_in(json, "x_m"),
+                   .y_m = numbers_in(json, "y_m")};
+  const bool frames = forwards(walk.frame) && (walk.frame.empty() || walk.frame.front() >= 0) &&
+                      std::ranges::adjacent_find(walk.frame) == walk.frame.end();
+  if (!frames) walk.frame.clear();
+  // Of each frame of the query, and of each keyframe of a traverse.
+  const std::size_t count = query ? walk.displacement.size() : walk.frame.size();
+  if (walk.time_s.size() != count || !forwards(walk.time_s)) walk.time_s.clear();
+  for (std::vector<double>* column : {&walk.displacement, &walk.distance_m, &walk.x_m, &walk.y_m})
+    if (column->size() != count) column->clear();
+  if (walk.x_m.size() != walk.y_m.size()) {
+    walk.x_m.clear();
+    walk.y_m.clear();
+  }
+  return walk;
 }
 
 std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) return {};
-  const ordered_json json = ordered_json::parse(stream, nullptr, false);
-  if (!json.is_object()) return {};
-  const auto count = [&](const char* name) { return json.value(name, std::size_t{0}); };
-  RunCounts counts{.queries = count("queries"),
+  const ordered_json json = read_json_object(file);
+  if (json.empty()) return {};
+  const auto count = [&](const char* name) {
+    return static_cast<std::size_t>(count_in(json, name).value_or(0));
+  };
+  return RunCounts{.queries = count("queries"),
                    .query_frames = count("query_frames"),
                    .matched = count("matched"),
                    .accepted = count("accepted"),
@@ -53,12 +63,10 @@ std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
                    .sequence_length = count("sequence_length"),
                    .accept_score = number_in(json, "accept_score"),
                    .accept_probability = number_in(json, "accept_probability"),
-                   .relative_scale = json.value("relative_scale", 1.0),
-                   .query = json.value("query", std::string{}),
-                   .route = json.value("route", std::string{})};
-  for (const auto& warning : json.value("warnings", ordered_json::array()))
-    counts.warnings.push_back(warning.get<std::string>());
-  return counts;
+                   .relative_scale = number_in(json, "relative_scale").value_or(1),
+                   .query = text_in(json, "query").value_or(""),
+                   .route = text_in(json, "route").value_or(""),
+                   .warnings = texts_in(json, "warnings")};
 }
 
 }  // namespace
@@ -66,7 +74,7 @@ std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
 RunView read_run(const std::filesystem::path& folder, const ordered_json& data, const RunTruth* truth) {
   RunView run{.folder = folder,
               .matches = place::read_matches(folder / "matches.csv"),
-              .unit = data.value("unit", 0.0),
+              .unit = number_in(data, "unit").value_or(0),
               .counts = read_counts(folder / "summary.json"),
               .data = data,
               .truth = truth,
@@ -75,10 +83,11 @@ RunView read_run(const std::filesystem::path& folder, const ordered_json& data, 
     for (const place::Match& match : run.matches)
       run.true_frame.push_back(true_frame(truth->truth, match.query_frame));
   }
-  if (data.contains("query")) run.query = columns(data["query"], "query");
-  if (data.contains("traverses")) {
-    for (const ordered_json& traverse : data["traverses"])
-      run.traverses.push_back(columns(traverse, traverse["name"].get<std::string>()));
+  if (member(data, "query").is_object()) run.query = columns(data["query"], "query", true);
+  const ordered_json& traverses = member(data, "traverses");
+  if (traverses.is_array()) {
+    for (const ordered_json& traverse : traverses)
+      run.traverses.push_back(columns(traverse, text_in(traverse, "name").value_or(""), false));
   }
   return run;
 }

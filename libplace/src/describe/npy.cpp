@@ -103,7 +103,11 @@ FloatRows read_npy(const std::filesystem::path& path) {
   const std::size_t size = type == "<f4" ? 4 : type == "<f2" ? 2 : type == "|u1" || type == "|i1" ? 1 : 0;
   if (size == 0) throw vo::Error(name, fmt::format("holds numbers of type '{}'", type), kExpected);
   const std::string_view data = bytes.substr(begin);
-  if (shape.width == 0 || data.size() / size / shape.width != shape.rows || data.size() % size != 0)
+  const std::size_t numbers = data.size() / size;
+  const bool whole =
+      data.size() % size == 0 && shape.width > 0 &&
+      (shape.rows == 0 ? numbers == 0 : numbers % shape.rows == 0 && numbers / shape.rows == shape.width);
+  if (!whole)
     throw vo::Error(
         name,
         fmt::format("holds {} bytes where {} x {} numbers should be", data.size(), shape.rows, shape.width),

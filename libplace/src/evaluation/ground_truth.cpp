@@ -61,6 +61,10 @@ LandmarkPairs read_pairs(const std::filesystem::path& path) {
     if (pairs.query_frame[i] < 0 || pairs.reference_frame[i] < 0) {
       throw vo::Error(table.where(i), "has a negative frame", "frames >= 0");
     }
+    constexpr double kMost = 9e15;  // a double holds whole numbers up to this
+    if (pairs.query_frame[i] > kMost || pairs.reference_frame[i] > kMost)
+      throw vo::Error(table.where(i), "has a frame that no video has",
+                      fmt::format("frames up to {:g}", kMost));
     if (i > 0 && pairs.query_frame[i] <= pairs.query_frame[i - 1]) {
       throw vo::Error(
           table.where(i),

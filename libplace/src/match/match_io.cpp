@@ -155,6 +155,17 @@ std::string to_csv(std::span<const Match> matches) {
 std::vector<Match> read_matches(const std::filesystem::path& path) {
   std::vector<Match> matches = vo::read_csv<Match>(path, kColumns);
   if (matches.empty()) throw vo::Error(path.string(), "has no rows", "one for each query keyframe");
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Match& match = matches[i];
+    if (i > 0 && match.query_frame <= matches[i - 1].query_frame)
+      throw vo::Error(
+          path.string(),
+          fmt::format("has query_frame {} after {}", match.query_frame, matches[i - 1].query_frame),
+          "a row for each query keyframe, in order");
+    if (match.accepted && !match.place)
+      throw vo::Error(path.string(), fmt::format("accepts query_frame {} without a place", match.query_frame),
+                      "a reference_frame where accepted is 1");
+  }
   return matches;
 }
 

@@ -116,7 +116,8 @@ std::vector<PlaceName> read_place_names(const std::filesystem::path& path) {
   const bool by_frame = table.has("frame"), by_distance = table.has("distance_m");
   if (!table.has("name") || by_frame == by_distance) {
     std::string header;
-    for (const std::string& column : table.header()) header += (header.empty() ? "" : ",") + column;
+    for (const std::string_view column : table.header())
+      header.append(header.empty() ? "" : ",").append(column);
     throw vo::Error(path.string(), fmt::format("has the columns {}", vo::printable(header)), kExpected);
   }
   if (table.rows() == 0) throw vo::Error(path.string(), "names no place", "a row for each place");
@@ -167,6 +168,7 @@ std::vector<PlaceOnTraverse> places_on(const Route& route, std::size_t traverse)
   std::vector<PlaceOnTraverse> all;
   for (std::size_t t = 0; t < route.traverses.size(); ++t) {
     const Traverse& of = route.traverses[t];
+    if (of.keyframes.empty()) continue;
     for (std::size_t i = 0; i < of.places.size(); ++i) {
       const double at = keyframe_at(of, static_cast<double>(of.places[i].frame));
       if (t == traverse) {

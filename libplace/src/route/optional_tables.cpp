@@ -2,6 +2,7 @@
 
 #include "route/descriptor_rows.hpp"
 
+#include <cmath>
 #include <span>
 #include <string_view>
 
@@ -77,7 +78,7 @@ std::vector<Bytes> read_points(const Database& database, const std::string& path
   return points;
 }
 
-std::vector<NamedPlace> read_places(const Database& database, std::int64_t id) {
+std::vector<NamedPlace> read_places(const Database& database, const std::string& path, std::int64_t id) {
   std::vector<NamedPlace> places;
   if (!has_table(database, "named_place")) return places;
   Statement row = database.prepare(
@@ -88,6 +89,9 @@ std::vector<NamedPlace> read_places(const Database& database, std::int64_t id) {
     place.name = row.text();
     place.frame = row.integer();
     place.distance_m = row.optional_real();
+    const bool placed = places.size() == 1 || place.frame >= places[places.size() - 2].frame;
+    if (place.name.empty() || place.frame < 0 || !placed || !std::isfinite(place.distance_m.value_or(0)))
+      damaged(path, "a named place is none");
   }
   return places;
 }

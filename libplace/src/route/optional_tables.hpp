@@ -24,6 +24,7 @@ void write(const sqlite::Database& database, std::int64_t id, const Traverse& tr
 std::vector<Bytes> read_points(const sqlite::Database& database, const std::string& path, std::int64_t id,
                                std::size_t keyframes);
 
-std::vector<NamedPlace> read_places(const sqlite::Database& database, std::int64_t id);
+std::vector<NamedPlace> read_places(const sqlite::Database& database, const std::string& path,
+                                    std::int64_t id);
 
 }  // namespace place::optional_tables

@@ -2,12 +2,14 @@
 
 #include "place/version.hpp"
 #include "route/descriptor_rows.hpp"
+#include "route/keyframe_check.hpp"
 #include "route/optional_tables.hpp"
 #include "route/row_digests.hpp"
 #include "route/sqlite.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <stdexcept>
@@ -152,6 +154,13 @@ void write_traverse(const Database& database, std::int64_t id, const Traverse& t
   }
 }
 
+/// Throws if what takes so many bytes cannot be in the file.
+void check_room(const Database& database, const std::string& path, std::string_view what, std::size_t each,
+                std::size_t count) {
+  if (each > 0 && count > static_cast<std::size_t>(database.allowance()) / each)
+    damaged(path, fmt::format("{} are missing", what));
+}
+
 Traverse read_traverse(const Database& database, const std::string& path, std::int64_t id,
                        const RouteReadOptions& options) {
   Statement row = database.prepare(
@@ -163,8 +172,7 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   traverse.source = row.text();
   traverse.frames = row.integer();
   traverse.duration_s = row.real();
-  traverse.frame_width_px = static_cast<int>(row.integer());
-  traverse.frame_height_px = static_cast<int>(row.integer());
+  const std::int64_t frame_width_px = row.integer(), frame_height_px = row.integer();
   traverse.pose_source = row.text();
   traverse.surveyed = row.integer() != 0;
   const std::int64_t keyframes = row.integer();
@@ -172,6 +180,11 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   constexpr std::int64_t kLargestSide = 1024;
   if (width < 0 || height < 0 || width > kLargestSide || height > kLargestSide)
     damaged(path, "the thumbnail size is no size");
+  if (frame_width_px < 0 || frame_height_px < 0 || frame_width_px > kLargestPicture ||
+      frame_height_px > kLargestPicture || traverse.frames < 0 || !std::isfinite(traverse.duration_s))
+    damaged(path, "a recording's size or length is none");
+  traverse.frame_width_px = static_cast<int>(frame_width_px);
+  traverse.frame_height_px = static_cast<int>(frame_height_px);
 
   Statement settings = database.prepare("SELECT name, value FROM setting WHERE traverse = ? ORDER BY name");
   traverse.settings = read_settings(settings.bind(id), path);
@@ -195,6 +208,8 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   }
   if (static_cast<std::int64_t>(traverse.keyframes.size()) != keyframes)
     damaged(path, "keyframes are missing");
+  if (const std::string_view problem = problem_of(traverse.keyframes); !problem.empty())
+    damaged(path, problem);
 
   if (options.previews) {
     Statement preview = database.prepare("SELECT position, jpeg FROM preview WHERE traverse = ?");
@@ -207,11 +222,13 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     }
   }
 
-  traverse.places = optional_tables::read_places(database, id);
+  traverse.places = optional_tables::read_places(database, path, id);
   if (options.view_points)
     traverse.view_points = optional_tables::read_points(database, path, id, traverse.keyframes.size());
 
   if (options.previews && width > 0) {
+    check_room(database, path, "thumbnails", static_cast<std::size_t>(width * height),
+               traverse.keyframes.size());
     traverse.thumbnails =
         vo::make_image_stack(static_cast<int>(width), static_cast<int>(height), traverse.keyframes.size());
     Statement chunk =
@@ -225,8 +242,10 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
   while (descriptor.step()) {
     const std::string form = descriptor.text();
     const std::int64_t first_side = descriptor.integer(), second_side = descriptor.integer();
+    const std::optional<Descriptors> one = make_of_form(form, first_side, second_side, 0);
+    if (!one) damaged(path, "the size of its descriptors is no size");
+    check_room(database, path, "descriptors", form_of(*one).bytes, traverse.keyframes.size());
     std::optional<Descriptors> made = make_of_form(form, first_side, second_side, traverse.keyframes.size());
-    if (!made) damaged(path, "the size of its descriptors is no size");
     Statement chunk = database.prepare(
         "SELECT checksum, bytes FROM descriptor_chunk WHERE traverse = ? AND descriptor = ? ORDER BY first");
     chunk.bind(id).bind(static_cast<std::int64_t>(traverse.descriptors.size()));
@@ -234,6 +253,18 @@ Traverse read_traverse(const Database& database, const std::string& path, std::i
     traverse.descriptors.push_back(std::move(*made));
   }
   return traverse;
+}
+
+/// The traverses have names of their own and the same descriptors.
+void check_alike(const Route& route, const std::string& path) {
+  std::set<std::string_view> names;
+  for (const Traverse& traverse : route.traverses) {
+    if (!names.insert(traverse.name).second) damaged(path, "two traverses share a name");
+    for (std::size_t i = 0; i < traverse.descriptors.size(); ++i) {
+      if (form_of(traverse.descriptors[i]) != form_of(route.traverses.front().descriptors[i]))
+        damaged(path, "descriptors of two traverses differ in form");
+    }
+  }
 }
 
 }  // namespace
@@ -258,6 +289,8 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
                     fmt::format("schema version {}; build the route again", kRouteSchemaVersion));
   }
 
+  database.check_stored_values();
+
   // SQLite pads a truncated last page with zeros. If there is a file of pending changes, pages may be there.
   std::error_code ignored;
   const bool whole_file = !std::filesystem::exists(shown + "-wal", ignored);
@@ -278,6 +311,9 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   const std::int64_t traverses = row.integer();
   const std::optional<double> latitude_deg = row.optional_real(), longitude_deg = row.optional_real();
   if (latitude_deg && longitude_deg) route.origin = {*latitude_deg, *longitude_deg};
+  if (!(route.unit >= 0) || !std::isfinite(route.unit) ||
+      (route.origin && !(std::abs(*latitude_deg) <= 90 && std::abs(*longitude_deg) <= 360)))
+    damaged(shown, "the route's unit or origin is none");
   Statement settings = database.prepare("SELECT name, value FROM route_setting ORDER BY name");
   route.settings = read_settings(settings, shown);
   Statement learned = database.prepare("SELECT checksum, bytes FROM learned ORDER BY descriptor");
@@ -292,6 +328,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
     if (options.descriptors && route.traverses.back().descriptors.size() != route.learned.size())
       damaged(shown, "descriptors are missing");
   }
+  check_alike(route, shown);
   return route;
 }
 

@@ -2,6 +2,7 @@
 #include "place/route/route_folder.hpp"
 #include "place/version.hpp"
 #include "route/descriptor_rows.hpp"
+#include "route/keyframe_check.hpp"
 #include "route/route_folder_names.hpp"
 
 #include <cmath>
@@ -89,6 +90,11 @@ void read_keyframes(const fs::path& folder, Traverse& traverse) {
     if (i > 0 && frames[i] <= frames[i - 1])
       throw vo::Error(table.where(i), fmt::format("has frame {} after {}", frames[i], frames[i - 1]),
                       "keyframes in order");
+    if (i > 0 && times[i] < times[i - 1])
+      throw vo::Error(table.where(i), fmt::format("has time_s {} after {}", times[i], times[i - 1]),
+                      "keyframes in order");
+    if (i == 0 && gaps[i] != 0)
+      throw vo::Error(table.where(i), "is after a gap", "one between two keyframes");
     Keyframe k{.frame = frames[i],
                .time_s = times[i],
                .displacement = displacements[i],
@@ -178,6 +184,8 @@ Traverse read_traverse(const fs::path& folder, const CsvTable& table, std::size_
   traverse.source = table.text("source")[row];
   traverse.frames = whole("frames");
   traverse.duration_s = table.numbers("duration_s")[row];
+  if (whole("frame_width_px") > kLargestPicture || whole("frame_height_px") > kLargestPicture)
+    throw vo::Error(table.where(row), "has pictures of no size", "frame_width_px and frame_height_px");
   traverse.frame_width_px = static_cast<int>(whole("frame_width_px"));
   traverse.frame_height_px = static_cast<int>(whole("frame_height_px"));
   traverse.pose_source = table.text("pose_source")[row];

@@ -20,6 +20,8 @@ namespace {
     case SQLITE_NOTADB:
       throw vo::Error(path, "is no route database", "a file written by `retrace build`");
     case SQLITE_CORRUPT:
+    case SQLITE_TOOBIG:
+    case SQLITE_INTERRUPT:  // of a statement that takes more steps than the file has bytes
       throw vo::Error(path, "is damaged", "a whole route database; build it again");
     default:
       throw vo::Error(path, fmt::format("SQLite: {}", database != nullptr ? sqlite3_errmsg(database)
@@ -27,14 +29,16 @@ namespace {
   }
 }
 
+constexpr std::int64_t kRow = 16;  // bytes that are charged for a row beside its texts and blobs
+
 }  // namespace
 
 void Statement::Finalise::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
 }
 
-Statement::Statement(sqlite3* database, std::string path, std::string_view sql)
-    : database_(database), path_(std::move(path)) {
+Statement::Statement(sqlite3* database, std::string path, std::string_view sql, std::int64_t* allowance)
+    : database_(database), path_(std::move(path)), allowance_(allowance) {
   sqlite3_stmt* statement = nullptr;
   const int code =
       sqlite3_prepare_v2(database_, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
@@ -44,6 +48,12 @@ Statement::Statement(sqlite3* database, std::string path, std::string_view sql)
 
 void Statement::check(int code) {
   if (code != SQLITE_OK && code != SQLITE_ROW && code != SQLITE_DONE) fail(database_, path_, code);
+}
+
+void Statement::charge(std::int64_t bytes) {
+  if (allowance_ == nullptr) return;
+  *allowance_ -= bytes;
+  if (*allowance_ < 0) fail(database_, path_, SQLITE_CORRUPT);
 }
 
 Statement& Statement::bind(std::int64_t value) {
@@ -79,6 +89,7 @@ bool Statement::step() {
   const int code = sqlite3_step(statement_.get());
   check(code);
   next_column_ = 0;
+  if (code == SQLITE_ROW) charge(kRow);
   return code == SQLITE_ROW;
 }
 
@@ -110,14 +121,17 @@ std::string Statement::text() {
   const int column = next_column_++;
   const unsigned char* value = sqlite3_column_text(statement_.get(), column);
   if (value == nullptr) return {};
-  return {reinterpret_cast<const char*>(value),
-          static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+  const int bytes = sqlite3_column_bytes(statement_.get(), column);
+  charge(bytes);
+  return {reinterpret_cast<const char*>(value), static_cast<std::size_t>(bytes)};
 }
 
 std::span<const std::uint8_t> Statement::blob() {
   const int column = next_column_++;
   const auto* value = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
-  return {value, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+  const int bytes = sqlite3_column_bytes(statement_.get(), column);
+  charge(bytes);
+  return {value, static_cast<std::size_t>(bytes)};
 }
 
 std::uint64_t Statement::digest(std::uint64_t before) const {
@@ -155,6 +169,43 @@ void Database::Close::operator()(sqlite3* database) const {
 Database::Database(const std::filesystem::path& file, Mode mode, std::string shown_path)
     : path_(std::move(shown_path)) {
   open(file, mode);
+  if (mode == Mode::kReadOnly) distrust(file);
+}
+
+void Database::distrust(const std::filesystem::path& file) {
+  const auto bytes_of = [](const std::filesystem::path& part) {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(part, error);
+    return error ? 0 : static_cast<std::int64_t>(bytes);
+  };
+  const std::int64_t bytes = bytes_of(file) + bytes_of(file.string() + "-wal");
+  constexpr std::int64_t kStepsPerByte = 16, kStepsOfAny = 100'000, kSchema = 1 << 16,
+                         kLongest = 1'000'000'000;  // SQLite's own limit
+  constexpr int kBetween = 1000;                    // steps from one look at the limit to the next
+  reading_ = std::make_unique<Reading>(Reading{2 * bytes + kSchema, kStepsPerByte * bytes + kStepsOfAny});
+  sqlite3_progress_handler(
+      database_.get(), kBetween,
+      [](void* reading) {
+        auto& left = static_cast<Reading*>(reading)->steps;
+        left -= kBetween;
+        return left < 0 ? 1 : 0;
+      },
+      reading_.get());
+  sqlite3_limit(database_.get(), SQLITE_LIMIT_LENGTH, static_cast<int>(std::min(bytes + kSchema, kLongest)));
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  run("PRAGMA cell_size_check = ON");
+}
+
+void Database::check_stored_values() const {
+  const bool made = prepare(
+                        "SELECT 1 FROM sqlite_schema WHERE type NOT IN ('table', 'index') UNION ALL "
+                        "SELECT 1 FROM pragma_table_list WHERE schema = 'main' AND type != 'table' UNION ALL "
+                        "SELECT 1 FROM sqlite_schema AS s, pragma_table_xinfo(s.name) AS c "
+                        "WHERE s.type = 'table' AND c.hidden != 0")
+                        .step();
+  if (made) fail(database_.get(), path_, SQLITE_CORRUPT);
 }
 
 Database::Copy::~Copy() {
@@ -224,7 +275,7 @@ void fold_changes(const std::filesystem::path& file) {
 }
 
 Statement Database::prepare(std::string_view sql) const {
-  return {database_.get(), path_, sql};
+  return {database_.get(), path_, sql, reading_ ? &reading_->allowance : nullptr};
 }
 
 void Database::run(const std::string& sql) const {

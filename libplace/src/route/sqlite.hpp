@@ -18,7 +18,8 @@ namespace place::sqlite {
 /// the file.
 class Statement {
  public:
-  Statement(sqlite3* database, std::string path, std::string_view sql);
+  /// `allowance`: see `Database::allowance`; null: none.
+  Statement(sqlite3* database, std::string path, std::string_view sql, std::int64_t* allowance);
 
   Statement& bind(std::int64_t value);
   Statement& bind(double value);
@@ -43,12 +44,14 @@ class Statement {
 
  private:
   void check(int code);
+  void charge(std::int64_t bytes);
 
   struct Finalise {
     void operator()(sqlite3_stmt* statement) const;
   };
   sqlite3* database_;
   std::string path_;
+  std::int64_t* allowance_;
   std::unique_ptr<sqlite3_stmt, Finalise> statement_;
   int next_parameter_ = 1;
   int next_column_ = 0;
@@ -61,11 +64,19 @@ class Database {
   /// For reading, a file is opened in place, even on read-only media: SQLite would create files next to one
   /// in WAL mode, so there it is opened as immutable or, if there are pending changes next to it (`-wal`), as
   /// a copy of both.
+  ///
+  /// A file for reading may be made to deceive: views and triggers do nothing, and what is read, and the
+  /// steps that it takes, are held to the file's size [SQLite, "Defense Against The Dark Arts"].
   Database(const std::filesystem::path& file, Mode mode, std::string shown_path);
 
   [[nodiscard]] Statement prepare(std::string_view sql) const;
   /// Runs statements without parameters or rows.
   void run(const std::string& sql) const;
+  /// Throws unless the file has tables of stored values alone: no view, virtual table or generated column.
+  void check_stored_values() const;
+  /// Bytes that may still be read, of rows, texts and blobs: twice what the file and its changes hold, since
+  /// pages that point at each other can make a short file give out any number of them. Reading more throws.
+  [[nodiscard]] std::int64_t allowance() const { return reading_ ? reading_->allowance : 0; }
 
  private:
   struct Close {
@@ -73,14 +84,21 @@ class Database {
   };
   void open(const std::filesystem::path& file, Mode mode);
   void open_unwritable(const std::filesystem::path& file);
+  void distrust(const std::filesystem::path& file);
 
   /// A folder that is removed with its contents.
   struct Copy {
     std::filesystem::path folder;
     ~Copy();
   };
+  /// What is left of the limits on reading.
+  struct Reading {
+    std::int64_t allowance = 0;  ///< bytes
+    std::int64_t steps = 0;      ///< of SQLite's machine
+  };
   std::string path_;
-  std::unique_ptr<Copy> copy_;  ///< of the file and its changes; outlives the connection
+  std::unique_ptr<Reading> reading_;  ///< none while writing; outlives the connection
+  std::unique_ptr<Copy> copy_;        ///< of the file and its changes; outlives the connection
   std::unique_ptr<sqlite3, Close> database_;
 };
 

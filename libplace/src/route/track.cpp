@@ -172,15 +172,16 @@ GeographicTrack read_gpx(const std::filesystem::path& file, const TrackOptions& 
   std::vector<std::string> warnings;
   // Tracks at any depth: if a logger died, the end of the file is missing and the tree ends there.
   struct Finder : pugi::xml_tree_walker {
-    explicit Finder(std::vector<FileTrack>& found) : tracks(found) {}
     bool for_each(pugi::xml_node& node) override {
-      if (local_name(node) == "trk") tracks.push_back(track_of(node, tracks.size() + 1));
+      if (local_name(node) == "trk") found.push_back(node);
       return true;
     }
-    std::vector<FileTrack>& tracks;
+    std::vector<pugi::xml_node> found;
   };
-  Finder finder(tracks);
+  Finder finder;
   document.traverse(finder);
+  tracks.reserve(finder.found.size());
+  for (const pugi::xml_node& node : finder.found) tracks.push_back(track_of(node, tracks.size() + 1));
   if (tracks.empty()) {
     if (!parsed && !holds(document, "gpx"))
       throw vo::Error(path, fmt::format("is no XML: {}", parsed.description()), "a GPX file");

@@ -10,6 +10,14 @@
 namespace vo {
 namespace {
 
+// Seconds since 1970 of the beginnings of the years 1 and 10000: what `iso_time` can write is what can be
+// read.
+constexpr double kYear1 = -62135596800, kYear10000 = 253402300800;
+
+bool can_be_written(double utc_s) {
+  return utc_s >= kYear1 && utc_s < kYear10000 - 1;
+}
+
 /// Takes pieces off the front of a text.
 class Scanner {
  public:
@@ -88,13 +96,13 @@ std::optional<double> parse_iso_time(std::string_view text) {
                                          std::chrono::day(static_cast<unsigned>(*day)));
   if (!zone || !scanner.done() || !date.ok()) return std::nullopt;
   const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return 86400.0 * static_cast<double>(days) + 3600 * *hour + 60 * *minute + *second - *zone + fraction;
+  const double utc_s =
+      86400.0 * static_cast<double>(days) + 3600 * *hour + 60 * *minute + *second - *zone + fraction;
+  return can_be_written(utc_s) ? std::optional(utc_s) : std::nullopt;
 }
 
 std::string iso_time(double utc_s) {
-  constexpr double kYear1 = -62135596800, kYear10000 = 253402300800;
-  if (!(utc_s >= kYear1 && utc_s < kYear10000 - 1))
-    throw std::invalid_argument("iso_time: a time in the years 1 to 9999 expected");
+  if (!can_be_written(utc_s)) throw std::invalid_argument("iso_time: a time in the years 1 to 9999 expected");
   const auto all_ms = std::chrono::milliseconds(std::llround(1000 * utc_s));
   const auto day = std::chrono::floor<std::chrono::days>(all_ms);
   const std::chrono::year_month_day date{std::chrono::sys_days(day)};

@@ -8,13 +8,15 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <pugixml.hpp>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
+#include <nlohmann/json.hpp>
 
 namespace vo {
 namespace {
@@ -140,45 +142,63 @@ Calibration opencv_or_ros(const Reader& file, const std::string& path) {
   return c;
 }
 
-/// OpenCV's XML and JSON, as if they were YAML.
-FlatYaml by_opencv(const std::filesystem::path& path) {
-  const auto list = [](const cv::Mat& matrix) {
-    cv::Mat values;
-    matrix.convertTo(values, CV_64F);
-    std::string text;
-    for (auto value = values.begin<double>(); value != values.end<double>(); ++value)
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", *value);
-    return text;
+constexpr std::size_t kMostKeys = 1000;  // of a file; as many as `read_flat_yaml` reads
+
+/// OpenCV's XML as if it were YAML. Not by OpenCV, whose reader runs past the end of what is no XML, and
+/// takes the memory that a matrix says it has.
+FlatYaml read_xml(const std::string& path, const std::vector<char>& text) {
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+  const pugi::xml_node root = document.child("opencv_storage");
+  if (!parsed || !root) throw Error(path, "is no XML that OpenCV writes", kForm);
+  const auto in_a_line = [](std::string value) {
+    std::ranges::replace_if(
+        value, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return value;
   };
-  try {
-    const cv::FileStorage file(path.string(), cv::FileStorage::READ);
-    if (!file.isOpened()) throw Error(path.string(), "cannot be read", kForm);
-    FlatYaml values;
-    for (const cv::String& key : file.root().keys()) {
-      const cv::FileNode node = file[key];
-      if (node.isInt()) {
-        values[key] = std::to_string(static_cast<int>(node));
-      } else if (node.isString()) {
-        values[key] = node.string();
-      } else if (node.isMap() && !node["data"].isNone()) {
-        cv::Mat matrix;
-        node >> matrix;
-        if (!matrix.empty()) values[key + ".data"] = list(matrix);
-      }
-    }
-    return values;
-  } catch (const cv::Exception&) {
-    throw Error(path.string(), "is no XML or JSON that OpenCV reads", kForm);
+  FlatYaml values;
+  for (const pugi::xml_node& node : root) {
+    if (values.size() >= kMostKeys) break;
+    const pugi::xml_node data = node.child("data");
+    values[data ? fmt::format("{}.data", node.name()) : node.name()] =
+        in_a_line(data ? data.child_value() : node.child_value());
   }
+  return values;
+}
+
+/// The same of its JSON.
+FlatYaml read_json(const std::string& path, const std::vector<char>& text) {
+  using nlohmann::json;
+  constexpr int kDeepest = 4;
+  const auto shallow = [](int depth, json::parse_event_t, json&) { return depth <= kDeepest; };
+  const json all = json::parse(text.begin(), text.end(), shallow, false);
+  if (!all.is_object()) throw Error(path, "is no JSON that OpenCV writes", kForm);
+  FlatYaml values;
+  for (const auto& [key, value] : all.items()) {
+    if (values.size() >= kMostKeys) break;
+    if (value.is_number()) values[key] = fmt::format("{}", value.get<double>());
+    if (value.is_string()) values[key] = value.get<std::string>();
+    const auto data = value.is_object() ? value.find("data") : value.end();
+    if (!value.is_object() || data == value.end() || !data->is_array()) continue;
+    std::string& list = values[key + ".data"];
+    for (const json& number : *data)
+      if (number.is_number()) list += fmt::format("{}{}", list.empty() ? "" : ", ", number.get<double>());
+  }
+  return values;
 }
 
 FlatYaml values_of(const std::filesystem::path& path) {
-  const std::vector<TextLine> lines = read_text_lines(path, kForm);
+  constexpr std::uintmax_t kLongest = 1U << 20U;  // bytes; real ones have a few thousand
+  std::error_code ignored;
+  if (const auto bytes = std::filesystem::file_size(path, ignored); !ignored && bytes > kLongest)
+    throw Error(path.string(), fmt::format("is {} bytes long", bytes), kForm);
+  const TextFile file = read_text_file(path, kForm);
   const auto first =
-      std::ranges::find_if(lines, [](const TextLine& line) { return !trimmed(line.text).empty(); });
-  if (first != lines.end() && (trimmed(first->text)[0] == '<' || trimmed(first->text)[0] == '{'))
-    return by_opencv(path);
-  FlatYaml values = read_flat_yaml(lines);
+      std::ranges::find_if(file.lines, [](const TextLine& line) { return !trimmed(line.text).empty(); });
+  const char begin = first == file.lines.end() ? '\0' : trimmed(first->text)[0];
+  if (begin == '<') return read_xml(path.string(), file.bytes);
+  if (begin == '{') return read_json(path.string(), file.bytes);
+  FlatYaml values = read_flat_yaml(file.lines);
   if (values.empty()) throw Error(path.string(), "is no YAML, XML or JSON", kForm);
   return values;
 }
@@ -211,6 +231,9 @@ Camera read_camera_calibration(const std::filesystem::path& path) {
     c = opencv_or_ros(file, name);
   }
   Camera camera{.lens = lens_of(name, c.model)};
+  constexpr double kLargestSide = 1 << 20;  // px
+  if (!(c.width >= 0 && c.height >= 0 && c.width <= kLargestSide && c.height <= kLargestSide))
+    throw Error(name, fmt::format("is of pictures of {:g}x{:g} pixels", c.width, c.height), "their size");
   camera.width_px = static_cast<int>(std::lround(c.width));
   camera.height_px = static_cast<int>(std::lround(c.height));
   camera.fx_px = c.focal_and_centre[0];

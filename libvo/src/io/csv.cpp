@@ -8,6 +8,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,30 +17,39 @@
 namespace vo {
 namespace {
 
-/// The cells of a line, without the quotes around them.
-std::vector<std::string> split(std::string_view line, char separator) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
+/// Appends the cells of a line, without the quotes around them. Quotes are taken out in place: a cell is
+/// never longer than what is written for it.
+void split(std::span<char> line, char separator, std::vector<std::string_view>& cells) {
+  std::size_t begin = 0, end = 0;  // of a cell
+  bool quoted = false, blank = true;
+  const auto put = [&](char c) {
+    line[end++] = c;
+    blank = blank && trimmed({&c, 1}).empty();
+  };
+  const auto finish = [&] {
+    cells.push_back(trimmed({line.data() + begin, end - begin}));
+    begin = end;
+    blank = true;
+  };
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += line[++i];  // a doubled quote is one of the cell's
+      put(line[++i]);  // a doubled quote is one of the cell's
     } else if (quoted) {
       if (c == '"') {
         quoted = false;
       } else {
-        cells.back() += c;
+        put(c);
       }
-    } else if (c == '"' && trimmed(cells.back()).empty()) {
+    } else if (c == '"' && blank) {
       quoted = true;
     } else if (c == separator) {
-      cells.emplace_back();
+      finish();
     } else {
-      cells.back() += c;
+      put(c);
     }
   }
-  for (std::string& cell : cells) cell = trimmed(cell);
-  return cells;
+  finish();
 }
 
 /// Commas, semicolons or tabs, whichever a header has most of outside quotes.
@@ -65,22 +76,20 @@ bool says_unknown(std::string_view cell) {
   return std::ranges::any_of(kWords, [&](std::string_view word) { return same_name(cell, word); });
 }
 
-bool all_empty(const std::vector<std::string>& cells) {
-  return std::ranges::all_of(cells, [](const std::string& cell) { return cell.empty(); });
-}
-
 /// Whether a `#` line is the header of the rows after it: names over as many numbers.
-bool heads(std::string_view comment, std::string_view next_line) {
+bool heads(std::string comment, std::string next_line) {
   const char separator = separator_of(comment);
-  const auto names = split(comment, separator), values = split(next_line, separator);
-  const auto is_number = [](const std::string& cell) { return parse_number(cell, true).has_value(); };
+  std::vector<std::string_view> names, values;
+  split(comment, separator, names);
+  split(next_line, separator, values);
+  const auto is_number = [](std::string_view cell) { return parse_number(cell, true).has_value(); };
   return names.size() > 1 && names.size() == values.size() && std::ranges::none_of(names, is_number) &&
          std::ranges::all_of(values, is_number);
 }
 
 /// The lines of a file that say something, the header first, which `separator` is that of.
-std::vector<TextLine> lines_from_header(const std::filesystem::path& path, char& separator) {
-  std::vector<TextLine> lines = read_text_lines(path, "a CSV file");
+std::vector<TextLine> lines_from_header(TextFile& file, const std::filesystem::path& path, char& separator) {
+  std::vector<TextLine> lines = std::move(file.lines);
   std::erase_if(lines, [](const TextLine& line) { return trimmed(line.text).empty(); });
   std::size_t first = 0;
   std::optional<char> said;
@@ -90,7 +99,8 @@ std::vector<TextLine> lines_from_header(const std::filesystem::path& path, char&
       said = text.size() == 5 ? text[4] : '\t';  // whose tab was trimmed
     } else if (!text.starts_with('#')) {
       break;
-    } else if (first + 1 < lines.size() && heads(text.substr(1), lines[first + 1].text)) {
+    } else if (first + 1 < lines.size() &&
+               heads(std::string(text.substr(1)), std::string(lines[first + 1].text))) {
       lines[first].text = text.substr(1);
       break;
     }
@@ -119,24 +129,40 @@ CsvTable CsvTable::read(const std::filesystem::path& path, UnevenRows uneven) {
   CsvTable table;
   table.path_ = path.string();
   char separator = ',';
-  const std::vector<TextLine> lines = lines_from_header(path, separator);
-  table.header_ = split(lines[0].text, separator);
+  TextFile file = read_text_file(path, "a CSV file");
+  const std::vector<TextLine> lines = lines_from_header(file, path, separator);
+  const auto line_of = [&](const TextLine& line) {
+    return std::span(file.bytes)
+        .subspan(static_cast<std::size_t>(line.text.data() - file.bytes.data()), line.text.size());
+  };
+  const auto cells_in = [&](std::string_view text) {
+    return static_cast<std::size_t>(std::ranges::count(text, separator)) + 1;
+  };
+  table.header_.reserve(cells_in(lines[0].text));
+  split(line_of(lines[0]), separator, table.header_);
+  const std::size_t columns = table.header_.size();
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) most += cells_in(lines[i].text);
+  table.cells_.reserve(most);
+  table.lines_.reserve(lines.size() - 1);
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (trimmed(lines[i].text).starts_with('#')) continue;
-    std::vector<std::string> cells = split(lines[i].text, separator);
-    if (all_empty(cells)) continue;
-    if (cells.size() != table.header_.size()) {
-      if (uneven == UnevenRows::kRefuse) {
-        throw Error(fmt::format("{}: line {}", table.path_, lines[i].number),
-                    fmt::format("has {} cells", cells.size()),
-                    fmt::format("{} as in the header", table.header_.size()));
-      }
-      ++table.left_out_;
+    const std::size_t before = table.cells_.size();
+    split(line_of(lines[i]), separator, table.cells_);
+    const std::span row = std::span(table.cells_).subspan(before);
+    const bool empty = std::ranges::all_of(row, [](std::string_view cell) { return cell.empty(); });
+    if (row.size() == columns && !empty) {
+      table.lines_.push_back(lines[i].number);
       continue;
     }
-    table.cells_.push_back(std::move(cells));
-    table.lines_.push_back(lines[i].number);
+    if (!empty && uneven == UnevenRows::kRefuse) {
+      throw Error(fmt::format("{}: line {}", table.path_, lines[i].number),
+                  fmt::format("has {} cells", row.size()), fmt::format("{} as in the header", columns));
+    }
+    table.left_out_ += empty ? 0 : 1;
+    table.cells_.resize(before);
   }
+  table.bytes_ = std::make_shared<const std::vector<char>>(std::move(file.bytes));
   table.find_decimal_mark(separator);
   return table;
 }
@@ -145,22 +171,20 @@ void CsvTable::find_decimal_mark(char separator) {
   // Where commas do not separate, one in a number is its decimal mark. Where they do, a quoted "1,234" may be
   // a thousand: only other groups than of three digits say that the file has decimal commas.
   decimal_commas_ = separator != ',';
-  for (std::size_t row = 0; row < cells_.size() && !decimal_commas_; ++row) {
-    for (const std::string& cell : cells_[row]) {
-      const std::size_t comma = cell.rfind(',');
-      if (comma != std::string::npos && cell.size() - comma - 1 != 3 && parse_number(cell, true))
-        decimal_commas_ = true;
-    }
+  for (std::size_t i = 0; i < cells_.size() && !decimal_commas_; ++i) {
+    const std::size_t comma = cells_[i].rfind(',');
+    decimal_commas_ =
+        comma != std::string_view::npos && cells_[i].size() - comma - 1 != 3 && parse_number(cells_[i], true);
   }
 }
 
 bool CsvTable::has(std::string_view column) const {
-  return std::ranges::any_of(header_, [&](const std::string& name) { return same_name(name, column); });
+  return std::ranges::any_of(header_, [&](std::string_view name) { return same_name(name, column); });
 }
 
 std::size_t CsvTable::column_index(std::string_view column) const {
   const auto found =
-      std::ranges::find_if(header_, [&](const std::string& name) { return same_name(name, column); });
+      std::ranges::find_if(header_, [&](std::string_view name) { return same_name(name, column); });
   if (found == header_.end()) {
     throw Error(path_, fmt::format("has no column '{}'", column),
                 fmt::format("it among those there are ({})", fmt::join(header_, ", ")));
@@ -173,41 +197,43 @@ std::string CsvTable::where(std::size_t row) const {
 }
 
 std::string CsvTable::no_value(std::string_view column, std::size_t row) const {
-  const std::string& cell = cells_.at(row)[column_index(column)];
+  const std::string_view cell = cell_at(row, column_index(column));
   return cell.empty() ? fmt::format("{} is empty", column) : fmt::format("{} is '{}'", column, cell);
 }
 
 std::vector<std::string> CsvTable::text(std::string_view column) const {
   const std::size_t index = column_index(column);
   std::vector<std::string> values;
-  values.reserve(cells_.size());
-  for (const auto& row : cells_) values.push_back(row[index]);
+  values.reserve(rows());
+  for (std::size_t row = 0; row < rows(); ++row) values.emplace_back(cell_at(row, index));
   return values;
 }
 
 std::vector<std::optional<double>> CsvTable::optional_numbers(std::string_view column) const {
-  const std::vector<std::string> cells = text(column);
+  const std::size_t index = column_index(column);
   std::vector<std::optional<double>> values;
-  values.reserve(cells.size());
-  for (std::size_t row = 0; row < cells.size(); ++row) {
-    values.push_back(parse_number(cells[row], decimal_commas_));
-    if (!values.back() && !says_unknown(cells[row])) {
-      throw Error(where(row), fmt::format("{} is '{}'", column, cells[row]), "a finite number");
-    }
+  values.reserve(rows());
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const std::string_view cell = cell_at(row, index);
+    values.push_back(parse_number(cell, decimal_commas_));
+    if (!values.back() && !says_unknown(cell))
+      throw Error(where(row), fmt::format("{} is '{}'", column, cell), "a finite number");
   }
   return values;
 }
 
 std::vector<std::optional<double>> CsvTable::numbers_where_they_are(std::string_view column) const {
+  const std::size_t index = column_index(column);
   std::vector<std::optional<double>> values;
-  values.reserve(cells_.size());
-  for (const std::string& cell : text(column)) values.push_back(parse_number(cell, decimal_commas_));
+  values.reserve(rows());
+  for (std::size_t row = 0; row < rows(); ++row)
+    values.push_back(parse_number(cell_at(row, index), decimal_commas_));
   return values;
 }
 
 std::vector<double> CsvTable::numbers(std::string_view column) const {
   std::vector<double> values;
-  values.reserve(cells_.size());
+  values.reserve(rows());
   for (const std::optional<double>& value : optional_numbers(column)) {
     if (!value) throw Error(where(values.size()), no_value(column, values.size()), "a finite number");
     values.push_back(*value);
@@ -217,7 +243,7 @@ std::vector<double> CsvTable::numbers(std::string_view column) const {
 
 std::vector<std::optional<std::int64_t>> CsvTable::optional_indices(std::string_view column) const {
   std::vector<std::optional<std::int64_t>> values;
-  values.reserve(cells_.size());
+  values.reserve(rows());
   for (const std::optional<double>& value : optional_numbers(column)) {
     if (value && (*value < 0 || *value != std::floor(*value) || *value > 9e15)) {
       throw Error(where(values.size()), fmt::format("{} is {}", column, *value),
@@ -230,7 +256,7 @@ std::vector<std::optional<std::int64_t>> CsvTable::optional_indices(std::string_
 
 std::vector<std::int64_t> CsvTable::indices(std::string_view column) const {
   std::vector<std::int64_t> values;
-  values.reserve(cells_.size());
+  values.reserve(rows());
   for (const std::optional<std::int64_t>& value : optional_indices(column)) {
     if (!value) throw Error(where(values.size()), no_value(column, values.size()), "a whole number");
     values.push_back(*value);

@@ -59,15 +59,20 @@ struct Level {
 }  // namespace
 
 FlatYaml read_flat_yaml(const std::vector<TextLine>& lines) {
+  // Settings have short names and are few; without a limit, the paths of keys in a long key would take memory
+  // by the square of the file.
+  constexpr std::size_t kLongestPath = 64, kMostKeys = 1000;
   FlatYaml yaml;
   std::vector<Level> levels;
-  std::string* open = nullptr;  // a list whose brackets are not closed yet
+  std::string* open = nullptr;  // a list with brackets that are not closed yet
+  std::ptrdiff_t brackets = 0;  // that many
   for (const TextLine& text : lines) {
     const std::string_view line = without_comment(text.text), content = trimmed(line);
     if (content.empty() || content.starts_with('%') || content == "---" || content == "...") continue;
     if (open != nullptr) {
       open->append(" ").append(content);
-      if (open_brackets(*open) <= 0) open = nullptr;
+      brackets += open_brackets(content);
+      if (brackets <= 0) open = nullptr;
       continue;
     }
     const std::size_t indent = line.find_first_not_of(" \t");
@@ -77,7 +82,8 @@ FlatYaml read_flat_yaml(const std::vector<TextLine>& lines) {
       if (levels.empty()) continue;
       std::string& list = yaml[levels.back().path];
       list.append(list.empty() ? "" : ", ").append(trimmed(content.substr(1)));
-      if (open_brackets(list) > 0) open = &list;
+      brackets = open_brackets(content);
+      if (brackets > 0) open = &list;
       continue;
     }
     const std::size_t colon = colon_of(content);
@@ -85,9 +91,11 @@ FlatYaml read_flat_yaml(const std::vector<TextLine>& lines) {
     while (!levels.empty() && levels.back().indent >= indent) levels.pop_back();
     std::string path = levels.empty() ? std::string() : levels.back().path + '.';
     path += unquoted(content.substr(0, colon));
+    if (path.size() > kLongestPath || yaml.size() >= kMostKeys) continue;
     std::string& value = yaml[path];
     value = unquoted(untagged(content.substr(colon + 1)));
-    if (open_brackets(value) > 0) open = &value;
+    brackets = open_brackets(value);
+    if (brackets > 0) open = &value;
     levels.push_back({indent, std::move(path)});
   }
   return yaml;

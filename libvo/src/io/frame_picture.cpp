@@ -106,11 +106,15 @@ cv::Mat FramePictures::scaled(SwsContext*& context, const AVFrame& frame, cv::Si
   if (context == nullptr) return {};
   sws_setColorspaceDetails(context, sws_getCoefficients(frame.colorspace), full_range(frame) ? 1 : 0,
                            sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
-  cv::Mat image(size, format == AV_PIX_FMT_GRAY8 ? CV_8UC1 : CV_8UC3);
-  std::uint8_t* const planes[] = {image.data};
-  const int strides[] = {static_cast<int>(image.step)};
+  // swscale fills lines by whole vectors and writes past the end of a picture of any other width.
+  constexpr int kVector = 64;  // bytes, the longest there are
+  const int type = format == AV_PIX_FMT_GRAY8 ? CV_8UC1 : CV_8UC3;
+  const int line = static_cast<int>(size.width * CV_ELEM_SIZE(type));
+  const cv::Mat room(size.height, (line / kVector + 2) * kVector, CV_8UC1);
+  std::uint8_t* const planes[] = {room.data};
+  const int strides[] = {static_cast<int>(room.step)};
   sws_scale(context, frame.data, frame.linesize, 0, frame.height, planes, strides);
-  return image;
+  return cv::Mat(size, type, room.data, room.step).clone();
 }
 
 cv::Mat FramePictures::deep_grey(const AVFrame& frame) {

@@ -4,6 +4,7 @@
 #include "vo/io/text_file.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,16 +12,13 @@
 namespace vo {
 namespace {
 
-std::vector<std::string_view> cells_of(std::string_view text) {
+/// Takes the first cell off a text; empty if there is none.
+std::string_view take_cell(std::string_view& text) {
   constexpr std::string_view kSeparators = " \t,;";
-  std::vector<std::string_view> cells;
-  for (std::size_t begin = text.find_first_not_of(kSeparators); begin != std::string_view::npos;
-       begin = text.find_first_not_of(kSeparators, begin)) {
-    const std::size_t end = std::min(text.find_first_of(kSeparators, begin), text.size());
-    cells.push_back(text.substr(begin, end - begin));
-    begin = end;
-  }
-  return cells;
+  text.remove_prefix(std::min(text.find_first_not_of(kSeparators), text.size()));
+  const std::string_view cell = text.substr(0, std::min(text.find_first_of(kSeparators), text.size()));
+  text.remove_prefix(cell.size());
+  return cell;
 }
 
 bool is_name(std::string_view cell) {
@@ -31,27 +29,39 @@ bool is_name(std::string_view cell) {
 
 }  // namespace
 
-std::vector<NumberLine> read_number_lines(const std::filesystem::path& path, std::string_view expected) {
-  std::vector<NumberLine> lines;
+std::string NumberFile::where(const NumberLine& line) const {
+  return fmt::format("{}: line {}", path, line.number);
+}
+
+std::string problem_of(const NumberLine& line) {
+  return line.wrong.empty() ? fmt::format("has {} numbers", line.values.size())
+                            : fmt::format("'{}' is no number", printable(line.wrong));
+}
+
+NumberFile read_number_lines(const std::filesystem::path& path, std::string_view expected) {
+  TextFile text = read_text_file(path, expected);
+  NumberFile file{.path = path.string(), .bytes = std::move(text.bytes), .lines = {}};
+  file.lines.reserve(text.lines.size());
   bool first = true;
-  for (const TextLine& line : read_text_lines(path, expected)) {
-    const std::string_view text = trimmed(line.text);
-    if (text.empty() || text.starts_with('#')) continue;
-    const std::vector<std::string_view> cells = cells_of(text);
-    if (cells.empty()) continue;
-    if (std::exchange(first, false) && cells.size() > 1 && is_name(cells[0]) && is_name(cells[1])) continue;
-    NumberLine numbers{.where = fmt::format("{}: line {}", path.string(), line.number), .values = {}};
-    for (const std::string_view cell : cells) {
+  for (const TextLine& line : text.lines) {
+    std::string_view rest = trimmed(line.text);
+    if (rest.empty() || rest.starts_with('#')) continue;
+    std::string_view after = rest;
+    const std::string_view one = take_cell(after), two = take_cell(after);
+    if (one.empty()) continue;
+    if (std::exchange(first, false) && !two.empty() && is_name(one) && is_name(two)) continue;
+    NumberLine& numbers =
+        file.lines.emplace_back(NumberLine{.number = line.number, .wrong = {}, .values = {}});
+    for (std::string_view cell = take_cell(rest); !cell.empty(); cell = take_cell(rest)) {
       const std::optional<double> value = parse_number(cell);
       if (!value) {
-        numbers.problem = fmt::format("'{}' is no number", printable(cell));
+        numbers.wrong = cell;
         break;
       }
       numbers.values.push_back(*value);
     }
-    lines.push_back(std::move(numbers));
   }
-  return lines;
+  return file;
 }
 
 }  // namespace vo

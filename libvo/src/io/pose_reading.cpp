@@ -61,35 +61,37 @@ std::optional<cv::Matx33d> from_quaternion(Reading& reading, double x, double y,
   return rotation;
 }
 
-Reading read_tum_lines(const std::vector<NumberLine>& lines) {
-  Reading reading{.lines = lines.size()};
-  for (const NumberLine& line : lines) {
+Reading read_tum_lines(const NumberFile& file) {
+  Reading reading{.lines = file.lines.size()};
+  reading.poses.reserve(reading.lines);
+  for (const NumberLine& line : file.lines) {
     const std::vector<double>& v = line.values;
-    if (line.problem || v.size() != kTumCells) {
-      reading.leave_out(line.where, line.problem.value_or(fmt::format("has {} numbers", v.size())));
+    if (!line.wrong.empty() || v.size() != kTumCells) {
+      reading.leave_out(file.where(line), problem_of(line));
     } else if (const auto rotation = from_quaternion(reading, v[4], v[5], v[6], v[7])) {
       reading.poses.push_back(
           {.time = v[0], .pose = {.rotation = *rotation, .position = {v[1], v[2], v[3]}}});
     } else {
-      reading.leave_out(line.where, "has a quaternion of zeros");
+      reading.leave_out(file.where(line), "has a quaternion of zeros");
     }
   }
   return reading;
 }
 
-Reading read_kitti_lines(const std::vector<NumberLine>& lines) {
-  Reading reading{.lines = lines.size()};
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::vector<double>& v = lines[i].values;
-    if (lines[i].problem || v.size() != kKittiCells) {
-      reading.leave_out(lines[i].where, lines[i].problem.value_or(fmt::format("has {} numbers", v.size())));
+Reading read_kitti_lines(const NumberFile& file) {
+  Reading reading{.lines = file.lines.size()};
+  reading.poses.reserve(reading.lines);
+  for (std::size_t i = 0; i < file.lines.size(); ++i) {
+    const std::vector<double>& v = file.lines[i].values;
+    if (!file.lines[i].wrong.empty() || v.size() != kKittiCells) {
+      reading.leave_out(file.where(file.lines[i]), problem_of(file.lines[i]));
       continue;
     }
     const cv::Matx33d rotation(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]);
     constexpr double kTolerance = 1e-2;  // files carry six digits
     if (cv::norm(rotation * rotation.t() - cv::Matx33d::eye()) > kTolerance ||
         cv::determinant(rotation) < 0) {
-      reading.leave_out(lines[i].where, "is no rotation and position");
+      reading.leave_out(file.where(file.lines[i]), "is no rotation and position");
       continue;
     }
     reading.poses.push_back({.frame = i, .pose = {.rotation = rotation, .position = {v[3], v[7], v[11]}}});

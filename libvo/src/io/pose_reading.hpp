@@ -41,8 +41,8 @@ struct Reading {
 std::optional<cv::Matx33d> from_quaternion(Reading& reading, double x, double y, double z, double w);
 
 inline constexpr std::size_t kTumCells = 8, kKittiCells = 12;
-Reading read_tum_lines(const std::vector<NumberLine>& lines);
-Reading read_kitti_lines(const std::vector<NumberLine>& lines);
+Reading read_tum_lines(const NumberFile& file);
+Reading read_kitti_lines(const NumberFile& file);
 
 /// `axes` becomes those that a CSV file's columns leave no doubt of: a vehicle's with headings, none without
 /// orientation.

@@ -23,18 +23,16 @@ constexpr std::string_view kPoseForms = "TUM's lines of 8 numbers, KITTI's of 12
 
 /// Gives the poses of KITTI's form the times of their frames.
 void add_times(Reading& reading, const std::filesystem::path& path) {
-  const std::vector<NumberLine> lines = read_number_lines(path, "one time in seconds a line");
-  for (const NumberLine& line : lines) {
-    if (line.problem || line.values.size() != 1) {
-      throw Error(line.where, line.problem.value_or(fmt::format("has {} numbers", line.values.size())),
-                  "one time in seconds");
-    }
+  const NumberFile file = read_number_lines(path, "one time in seconds a line");
+  for (const NumberLine& line : file.lines) {
+    if (!line.wrong.empty() || line.values.size() != 1)
+      throw Error(file.where(line), problem_of(line), "one time in seconds");
   }
-  if (lines.size() != reading.lines) {
-    throw Error(path.string(), fmt::format("has {} times", lines.size()),
+  if (file.lines.size() != reading.lines) {
+    throw Error(path.string(), fmt::format("has {} times", file.lines.size()),
                 fmt::format("{}, one for each pose", reading.lines));
   }
-  for (FilePose& pose : reading.poses) pose.time = lines[pose.frame].values[0];
+  for (FilePose& pose : reading.poses) pose.time = file.lines[pose.frame].values[0];
 }
 
 /// What a file's times are in, as their size says it: poses are a thousandth of a second to a minute apart,
@@ -102,7 +100,8 @@ void take_axes(PoseSeries& series, const std::optional<FoundAxes>& known, Trajec
 /// True if the first line that says something separates names by commas, semicolons or tabs; EuRoC has them
 /// in a comment.
 bool is_csv(const std::filesystem::path& path) {
-  for (const TextLine& line : read_text_lines(path, kPoseForms)) {
+  const TextFile file = read_text_file(path, kPoseForms);
+  for (const TextLine& line : file.lines) {
     const std::string_view text = trimmed(line.text);
     const bool separated = text.find_first_of(",;\t") != std::string_view::npos;
     if (text.empty()) continue;
@@ -126,12 +125,12 @@ PoseSeries read_pose_series(const std::filesystem::path& path, const PoseFileOpt
   if (is_csv(path)) {
     reading = read_pose_csv(path, known);
   } else {
-    const std::vector<NumberLine> lines = read_number_lines(path, kPoseForms);
-    const auto whole = std::ranges::find_if(lines, [](const NumberLine& line) {
-      return !line.problem && (line.values.size() == kTumCells || line.values.size() == kKittiCells);
+    const NumberFile file = read_number_lines(path, kPoseForms);
+    const auto whole = std::ranges::find_if(file.lines, [](const NumberLine& line) {
+      return line.wrong.empty() && (line.values.size() == kTumCells || line.values.size() == kKittiCells);
     });
-    timed = whole == lines.end() || whole->values.size() == kTumCells;
-    reading = timed ? read_tum_lines(lines) : read_kitti_lines(lines);
+    timed = whole == file.lines.end() || whole->values.size() == kTumCells;
+    reading = timed ? read_tum_lines(file) : read_kitti_lines(file);
   }
   if (options.kitti_times) {
     if (timed) throw Error(name, "has times of its own", "none beside it, or poses in KITTI's form");

@@ -2,14 +2,16 @@
 
 #include "vo/base/error.hpp"
 
+#include <algorithm>
 #include <fstream>
-#include <iterator>
 
 namespace vo {
 namespace {
 
-void append_utf8(std::string& text, char32_t code) {
-  const auto put = [&](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+void append_utf8(std::vector<char>& text, char32_t code) {
+  const auto put = [&](char32_t byte) {
+    text.push_back(static_cast<char>(static_cast<unsigned char>(byte)));
+  };
   if (code < 0x80) {
     put(code);
   } else if (code < 0x800) {
@@ -28,8 +30,9 @@ void append_utf8(std::string& text, char32_t code) {
 }
 
 /// UTF-8 of UTF-16; half a surrogate pair becomes a question mark.
-std::string from_utf16(std::string_view bytes, bool big_endian) {
-  std::string text;
+std::vector<char> from_utf16(std::string_view bytes, bool big_endian) {
+  std::vector<char> text;
+  text.reserve(bytes.size() + bytes.size() / 2);  // three bytes for two at most
   const auto unit = [&](std::size_t i) {
     const auto a = static_cast<unsigned char>(bytes[i]), b = static_cast<unsigned char>(bytes[i + 1]);
     return static_cast<char32_t>(big_endian ? a << 8 | b : b << 8 | a);
@@ -50,33 +53,49 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
 }
 
 /// The text of a file in UTF-8, by its byte order mark.
-std::string decoded(std::string bytes) {
-  const std::string_view all = bytes;
-  if (all.starts_with("\xEF\xBB\xBF")) return bytes.substr(3);
+std::vector<char> decoded(std::vector<char> bytes) {
+  const std::string_view all(bytes.data(), bytes.size());
+  if (all.starts_with("\xEF\xBB\xBF")) bytes.erase(bytes.begin(), bytes.begin() + 3);
   if (all.starts_with("\xFF\xFE")) return from_utf16(all.substr(2), false);
   if (all.starts_with("\xFE\xFF")) return from_utf16(all.substr(2), true);
   return bytes;
 }
 
+/// The bytes of a stream of any kind, which may not say beforehand how many there are.
+std::vector<char> bytes_of(std::istream& stream) {
+  std::vector<char> bytes;
+  constexpr std::size_t kPiece = 1U << 16U;
+  for (std::size_t read = 0;;) {
+    bytes.resize(read + std::max(kPiece, read / 2));
+    stream.read(bytes.data() + read, static_cast<std::streamsize>(bytes.size() - read));
+    read += static_cast<std::size_t>(stream.gcount());
+    if (stream) continue;
+    bytes.resize(read);
+    return bytes;
+  }
+}
+
 }  // namespace
 
-std::vector<TextLine> read_text_lines(const std::filesystem::path& path, std::string_view expected) {
+TextFile read_text_file(const std::filesystem::path& path, std::string_view expected) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) throw Error(path.string(), "does not exist", expected);
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path, ignored))
     throw Error(path.string(), "cannot be read", expected);
-  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::vector<char> bytes = bytes_of(file);
   if (file.bad()) throw Error(path.string(), "cannot be read to its end");
-  const std::string text = decoded(std::move(bytes));
-  std::vector<TextLine> lines;
+  TextFile read{.bytes = decoded(std::move(bytes)), .lines = {}};
+  const std::string_view text(read.bytes.data(), read.bytes.size());
+  read.lines.reserve(static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return c == '\r' || c == '\n'; }) + 1));
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
-    lines.push_back({lines.size() + 1, text.substr(begin, end - begin)});
+    read.lines.push_back({read.lines.size() + 1, text.substr(begin, end - begin)});
     const bool two = end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n';
     begin = end + (two ? 2 : 1);
   }
-  return lines;
+  return read;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -99,7 +99,10 @@ std::vector<double> distances_between(const WalkTruth& truth) {
 }
 
 Trajectory read_tum(const std::filesystem::path& path) {
-  return planar(read_pose_series(path, {.axes = TrajectoryAxes::kVehicle}));
+  const PoseSeries series = read_pose_series(path, {.axes = TrajectoryAxes::kVehicle});
+  if (series.time_s.empty())
+    throw Error(path.string(), "has poses without times", "TUM's lines of 8 numbers");
+  return planar(series);
 }
 
 std::string to_tum(const Trajectory& trajectory, std::string_view comment) {

@@ -165,4 +165,12 @@ TEST(Settings, ConditionsHoldOrSayWhyNot) {
   EXPECT_EQ(why_not, "motion is steps");
 }
 
+TEST(Settings, RefuseTextThatNoFileOfSettingsHolds) {
+  place::Settings settings;
+  for (const std::string& text : {std::string("a\0b", 3), std::string("a\nb"), std::string("\x7F")})
+    EXPECT_THROW(place::set(settings, place::setting_named("motion-file"), text), vo::Error);
+  place::set(settings, place::setting_named("motion-file"), "caf\xC3\xA9 \"1\".tum");
+  EXPECT_EQ(settings.motion_file, "caf\xC3\xA9 \"1\".tum");
+}
+
 }  // namespace

@@ -10,14 +10,19 @@ namespace vo {
 /// One line of a text file.
 struct TextLine {
   std::size_t number = 0;  ///< in the file, from 1
-  std::string text;        ///< without the end of the line
+  std::string_view text;   ///< without the end of the line; valid as long as the file's bytes
 };
 
-/// The lines of a text file as programs write them: UTF-8 with or without a byte order mark, or
-/// UTF-16 with one (spreadsheets' "Unicode text"); ended by LF, CR LF or CR. `expected` says in an error what
-/// the file should have been. Throws `vo::Error` naming the file if it is missing, a folder, or cannot be
-/// read.
-std::vector<TextLine> read_text_lines(const std::filesystem::path& path, std::string_view expected);
+/// A text file: at most 30 bytes of memory for each of its own.
+struct TextFile {
+  std::vector<char> bytes;  ///< in UTF-8; a vector, whose contents stay where they are when it is moved
+  std::vector<TextLine> lines;
+};
+
+/// Reads a text file as people's programs write it: UTF-8 with or without a byte order mark, or UTF-16 with
+/// one (spreadsheets' "Unicode text"); lines ended by LF, CR LF or CR. `expected` says in an error what the
+/// file should have been. Throws `vo::Error` naming the file if it is missing, a folder, or cannot be read.
+TextFile read_text_file(const std::filesystem::path& path, std::string_view expected);
 
 /// The text without white space at both ends.
 std::string_view trimmed(std::string_view text);

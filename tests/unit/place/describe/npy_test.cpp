@@ -81,6 +81,13 @@ TEST_F(Npy, SaysWhatIsWrong) {
   refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }", std::string(15, '\0')),
           "15 bytes");
   refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 0), }", ""), "0 bytes");
+  // A number more than the rows have, and none of rows that are there: neither is room for it.
+  refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 3), }", std::string(16, '\0')),
+          "holds 16 bytes where 1 x 3 numbers should be");
+  refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (0, 3), }", std::string(8, '\0')),
+          "holds 8 bytes where 0 x 3 numbers should be");
+  refused(npy("{'descr': '|u1', 'fortran_order': False, 'shape': (4294967296, 4294967296), }", ""),
+          "holds 0 bytes");
 }
 
 }  // namespace

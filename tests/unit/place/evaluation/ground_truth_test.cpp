@@ -41,6 +41,7 @@ TEST(ReadPairs, NamesTheLineThatIsWrong) {
   EXPECT_THROW_WITH(read("1,2\n"), vo::Error, "p.csv: has 1 rows; expected 2 landmarks");
   EXPECT_THROW_WITH(read("1,2\n1,3\n"), vo::Error, "line 3: query_frame 1 does not follow 1");
   EXPECT_THROW_WITH(read("1,2\n3,-3\n"), vo::Error, "line 3: has a negative frame");
+  EXPECT_THROW_WITH(read("1,2\n3,1e300\n"), vo::Error, "line 3: has a frame that no video has");
   EXPECT_THROW_WITH(read("1,2\n3,x\n"), vo::Error, "line 3: reference_frame is 'x'");
   EXPECT_THROW_WITH(place::read_pairs(folder.write("p.csv", "query,reference\n1,2\n3,4\n")), vo::Error,
                     "has no column 'query_frame'");

@@ -70,7 +70,7 @@ TEST(MatchesCsv, ReadsBackTheSameText) {
 
 TEST(MatchesCsv, RefusesWhatIsNotWhole) {
   const TemporaryFolder folder;
-  const auto refused = [&](const char* text, const char* said) {
+  const auto refused = [&](const std::string& text, const char* said) {
     EXPECT_THROW_WITH(place::read_matches(folder.write("m.csv", text)), vo::Error, said);
   };
   refused("query_frame,reference_frame,score,accepted\n", "has no rows");
@@ -81,6 +81,9 @@ TEST(MatchesCsv, RefusesWhatIsNotWhole) {
   refused("query_frame,reference_frame,score,accepted\n1,2,1,yes\n", "accepted is 'yes'; expected 0 or 1");
   refused("query_frame,reference_frame,score,accepted,probability\n1,2,1,1,1.5\n", "probability is '1.5'");
   refused("query_frame,score,accepted\n1,2,1\n", "has no column 'reference_frame'");
+  const std::string header = "query_frame,reference_frame,score,accepted\n";
+  refused(header + "1,2,3,1\n1,2,3,1\n", "has query_frame 1 after 1; expected a row for each query keyframe");
+  refused(header + "1,,,1\n", "accepts query_frame 1 without a place");
 }
 
 TEST(LocateMatches, TakesKeyframesAndPosesFromTheRoute) {

@@ -115,4 +115,12 @@ TEST(PlacesOn, KeepsToItsOwnWithoutASurvey) {
   EXPECT_TRUE(place::places_on(route, 1).empty());
 }
 
+TEST(PlacesOn, PassesOverAWalkWithoutKeyframes) {
+  place::Route route;
+  route.traverses = {straight("day"), straight("none", 0, 0)};
+  route.traverses[1].places = {{"bakery", 40, {}}};
+  EXPECT_TRUE(place::places_on(route, 0).empty());
+  EXPECT_TRUE(place::places_on(route, 1).empty());
+}
+
 }  // namespace

@@ -245,6 +245,68 @@ TEST(RouteDatabase, FindsThumbnailsWithoutAKeyframeAndCountsThatAreNotTrue) {
               testing::HasSubstr("keyframes are missing"));
 }
 
+TEST(RouteDatabase, HoldsAFileMadeToDeceiveToItsSize) {
+  const TemporaryFolder folder;
+  const auto damaged_by = [&](const std::string& sql) {
+    place::Route route;
+    route.traverses.push_back(example_traverse("day", 4, 1));
+    route.learned.resize(3);
+    place::write_route(folder / "r.db", route);
+    changed_by_hand(folder / "r.db").run(sql);
+    std::string said;
+    try {
+      static_cast<void>(place::read_route(folder / "r.db"));
+    } catch (const vo::Error& error) {
+      said = error.what();
+    }
+    EXPECT_THAT(said, testing::HasSubstr("r.db: is damaged")) << sql;
+    return said;
+  };
+  // Rows without end, and a value of 100 MB, of which the file has only how they are made.
+  damaged_by(
+      "ALTER TABLE keyframe RENAME TO old; CREATE VIEW keyframe AS WITH RECURSIVE n(i) AS (SELECT 0 "
+      "UNION ALL SELECT i + 1 FROM n) SELECT 1 AS traverse, i AS position, i AS frame, i AS time_s, "
+      "0 AS displacement, NULL AS distance_m, NULL AS x_m, NULL AS y_m, NULL AS heading_rad, "
+      "0 AS after_gap FROM n");
+  damaged_by(
+      "DROP TABLE learned; CREATE TABLE learned(descriptor INTEGER PRIMARY KEY, checksum AS (0), "
+      "bytes AS (zeroblob(100000000))); INSERT INTO learned(descriptor) VALUES(0), (1), (2)");
+  // Memory for what a size and a count say is not taken before it is known to be there.
+  EXPECT_THAT(damaged_by("UPDATE traverse SET thumbnail_width = 1024, thumbnail_height = 1024"),
+              testing::HasSubstr("thumbnails are missing"));
+  EXPECT_THAT(damaged_by("UPDATE descriptor SET width = 4096, height = 4096 WHERE form = 'pixels'"),
+              testing::HasSubstr("descriptors are missing"));
+}
+
+TEST(RouteDatabase, RefusesKeyframesAndPlacesThatCannotBe) {
+  const TemporaryFolder folder;
+  const auto damaged_by = [&](const std::string& sql, const std::string& what) {
+    place::write_route(folder / "r.db", example_route());
+    changed_by_hand(folder / "r.db").run(sql);
+    EXPECT_THROW_WITH(place::read_route(folder / "r.db"), vo::Error, "r.db: is damaged: " + what);
+  };
+  damaged_by("UPDATE keyframe SET frame = 7 WHERE traverse = 1 AND position = 2",
+             "keyframes are not in order");
+  damaged_by("UPDATE keyframe SET frame = -1 WHERE traverse = 1 AND position = 0",
+             "keyframes are not in order");
+  damaged_by("UPDATE keyframe SET time_s = 0.1 WHERE traverse = 1 AND position = 2",
+             "keyframes are not in order");
+  damaged_by("UPDATE keyframe SET after_gap = 1 WHERE traverse = 1 AND position = 0",
+             "keyframes are not in order");
+  damaged_by("UPDATE keyframe SET displacement = 9e999 WHERE traverse = 1 AND position = 3",
+             "a value of a keyframe is no number");
+  damaged_by("UPDATE keyframe SET y_m = -9e999 WHERE traverse = 1 AND position = 3",
+             "a value of a keyframe is no number");
+  damaged_by("UPDATE named_place SET frame = -3 WHERE name = 'gate'", "a named place is none");
+  damaged_by("UPDATE named_place SET name = '' WHERE name = 'gate'", "a named place is none");
+  damaged_by("UPDATE traverse SET frame_width_px = 4294967297 WHERE id = 1",
+             "a recording's size or length is none");
+  damaged_by("UPDATE route SET unit = 9e999", "the route's unit or origin is none");
+  damaged_by("UPDATE route SET latitude_deg = 91", "the route's unit or origin is none");
+  damaged_by("UPDATE descriptor SET width = 4, height = 8 WHERE traverse = 2 AND form = 'pixels'",
+             "descriptors of two traverses differ in form");
+}
+
 TEST(RouteDatabase, AnyDamageIsAnErrorThatNamesTheFileOrDoesNoHarm) {
   const TemporaryFolder folder;
   place::Route route = example_route();

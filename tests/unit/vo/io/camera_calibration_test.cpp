@@ -218,4 +218,29 @@ TEST_F(CameraCalibration, RefusesOtherModelsByName) {
               HasSubstr("distortion_coefficients"));
 }
 
+TEST_F(CameraCalibration, TakesNoMemoryForWhatIsOnlyClaimed) {
+  // A matrix of 10^10 numbers of which there are nine is a matrix of nine.
+  const std::string json =
+      R"({"image_width": 640, "image_height": 480, "camera_matrix": {"type_id": "opencv-matrix", "rows": 100000,)"
+      R"("cols": 100000, "dt": "d", "data": [500.0, 0.0, 320.0, 0.0, 510.0, 240.0, 0.0, 0.0, 1.0]}})";
+  EXPECT_EQ(vo::read_camera_calibration(file(json)).fy_px, 510);
+  // What lies 100,000 deep takes no stack, and zeros among XML are no XML.
+  EXPECT_THAT(message(file(std::string(100'000, '{'))), HasSubstr("is no JSON that OpenCV writes"));
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += "<a>";
+  EXPECT_THAT(message(file(deep)), HasSubstr("is no XML that OpenCV writes"));
+  EXPECT_THAT(
+      message(file("<?xml versi=" + std::string(9, '\0') + "imag\"1.0\"?>\n<opencv_storage>\n<image_w")),
+      HasSubstr("is no XML that OpenCV writes"));
+  EXPECT_THAT(message(file(std::string(2 << 20, '#'))), HasSubstr("is 2097152 bytes long"));
+  for (const char* size : {"image_width: 1e300", "image_width: -640"})
+    EXPECT_NE(message(file(with(kRos, "image_width: 640", size))), "");
+}
+
+TEST_F(CameraCalibration, PassesOverKeysThatNoCalibrationHas) {
+  std::string text = std::string(kRos) + "\n" + std::string(100, 'k') + ":\n";
+  for (int i = 0; i < 3; ++i) text += " k" + std::to_string(i) + ": 1\n";
+  EXPECT_EQ(vo::read_camera_calibration(file(text)).width_px, 640);
+}
+
 }  // namespace

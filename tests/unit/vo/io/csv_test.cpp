@@ -127,4 +127,22 @@ TEST(Csv, NumbersAreWholeCells) {
   EXPECT_FALSE(vo::parse_number("1.234,5", true));
 }
 
+TEST(Csv, TakesQuotesOutInTimeThatGrowsWithTheLine) {
+  // A cell of blanks in quotes, again and again: each was looked at from the beginning of the cell.
+  const TemporaryFolder folder;
+  std::string line;
+  for (int i = 0; i < 200'000; ++i) line += "\" \" ";
+  const auto table = vo::CsvTable::read(folder.write("t.csv", "a,b\n" + line + ",\"x \"\"y\"\"\"\n"));
+  EXPECT_THAT(table.text("a"), ElementsAre(""));
+  EXPECT_THAT(table.text("b"), ElementsAre("x \"y\""));
+}
+
+TEST(Csv, StaysWhatItIsWhenItIsCopiedAndMoved) {
+  const TemporaryFolder folder;
+  auto table = vo::CsvTable::read(folder.write("t.csv", "a\nb\n"));
+  const vo::CsvTable copy = table, moved = std::move(table);
+  EXPECT_THAT(copy.text("a"), ElementsAre("b"));
+  EXPECT_THAT(moved.text("a"), ElementsAre("b"));
+}
+
 }  // namespace

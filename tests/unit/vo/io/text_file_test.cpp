@@ -17,8 +17,8 @@ using testing::ElementsAre;
 std::vector<std::string> lines_of(std::string_view content) {
   const TemporaryFolder folder;
   std::vector<std::string> lines;
-  for (const vo::TextLine& line : vo::read_text_lines(folder.write("t", content), "a text"))
-    lines.push_back(line.text);
+  const vo::TextFile file = vo::read_text_file(folder.write("t", content), "a text");
+  for (const vo::TextLine& line : file.lines) lines.emplace_back(line.text);
   return lines;
 }
 
@@ -27,8 +27,8 @@ TEST(TextFile, EndsLinesAsAnyProgramDoes) {
   EXPECT_THAT(lines_of("a\n"), ElementsAre("a"));
   EXPECT_THAT(lines_of(""), ElementsAre());
   const TemporaryFolder folder;
-  const auto lines = vo::read_text_lines(folder.write("t", "a\r\n\r\nb"), "a text");
-  EXPECT_EQ(lines[2].number, 3U);
+  const vo::TextFile file = vo::read_text_file(folder.write("t", "a\r\n\r\nb"), "a text");
+  EXPECT_EQ(file.lines[2].number, 3U);
 }
 
 TEST(TextFile, DecodesByTheByteOrderMark) {
@@ -45,9 +45,9 @@ TEST(TextFile, DecodesByTheByteOrderMark) {
 
 TEST(TextFile, SaysWhatItShouldHaveBeen) {
   const TemporaryFolder folder;
-  EXPECT_THROW_WITH(vo::read_text_lines(folder / "none", "a text"), vo::Error,
+  EXPECT_THROW_WITH(vo::read_text_file(folder / "none", "a text"), vo::Error,
                     "none: does not exist; expected a text");
-  EXPECT_THROW_WITH(vo::read_text_lines(folder.path(), "a text"), vo::Error,
+  EXPECT_THROW_WITH(vo::read_text_file(folder.path(), "a text"), vo::Error,
                     "cannot be read; expected a text");
 }
 

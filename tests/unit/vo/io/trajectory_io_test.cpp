@@ -84,4 +84,10 @@ TEST(Tum, HeadingNorthIsYawOfAQuarterTurn) {
             "0.000000 0.000000 0.000000 0 0 0 0.000000000 1.000000000\n");
 }
 
+TEST(Tum, RefusesPosesWithoutTimes) {
+  const TemporaryFolder folder;
+  EXPECT_THROW_WITH(vo::read_tum(folder.write("kitti", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 2\n")),
+                    vo::Error, "kitti: has poses without times; expected TUM's lines of 8 numbers");
+}
+
 }  // namespace

@@ -1,0 +1,9 @@
+// A piece of a GoPro's telemetry.
+#include "io/gpmf.hpp"
+
+#include "fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::call(size, [&] { vo::gpmf_positions({data, size}); });
+  return 0;
+}
