@@ -1,9 +1,5 @@
 #include "place/resolve.hpp"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
@@ -20,10 +16,6 @@ bool is(const std::optional<std::string>& value, std::string_view what) {
   return value && *value == what;
 }
 
-// Files: a route says which they were, and a walk must name its own, for none is opened because a database
-// has its path.
-constexpr std::array<std::string_view, 2> kNamed{"model", "model-config"};
-
 /// A copy with the settings that a walk takes from its route.
 Settings with_route(Settings settings, const Settings& route) {
   const bool density_given = settings.sampling_n || settings.spacing_m;
@@ -35,14 +27,6 @@ Settings with_route(Settings settings, const Settings& route) {
       throw vo::Error(std::string(setting.name),
                       fmt::format("is {} and the route was built with {}", *mine, *routes),
                       "the same, or leave it out");
-    }
-    if (std::ranges::find(kNamed, setting.name) != kNamed.end()) {
-      if (!mine && routes)
-        throw vo::Error(std::string(setting.name), "is missing",
-                        fmt::format("the file that the route was built with, {}; none is opened because a "
-                                    "route names it",
-                                    *routes));
-      continue;
     }
     const bool density = setting.name == "sampling-n" || setting.name == "spacing-m";
     if (!mine && routes && !(density && density_given)) set(settings, setting, *routes);
