@@ -26,6 +26,8 @@ std::vector<place::Match> example() {
   matches[0].yaw_rad = -0.25;
   matches[0].lateral_m = 0.5;
   matches[0].ahead_m = -0.125;
+  matches[0].nearest_place = "gate, north";
+  matches[0].nearest_place_m = -2.5;
   matches[0].accepted = true;
   matches[1].query_frame = 9;
   matches[1].query_time_s = 0.36;
@@ -54,10 +56,11 @@ place::Route route() {
 TEST(MatchesCsv, HasTheColumnsOfTheContract) {
   EXPECT_EQ(place::to_csv(example()),
             "query_frame,query_time_s,traverse,reference_frame,reference_time_s,reference_distance_m,score,"
-            "accepted,probability,sd_keyframes,sd_m,yaw_deg,lateral_m,ahead_m\n"
-            "4,0.160000,by day,20,0.800000,1.25,0.333333333,1,0.97,1.5,0.75,-14.32,0.500,-0.125\n"
-            "9,0.360000,,,,,0,0,,,,,,\n"
-            "12,0.480000,by day,0,0.000000,,-0.5,0,,,,,,\n");
+            "accepted,probability,sd_keyframes,sd_m,yaw_deg,lateral_m,ahead_m,nearest_place,nearest_place_m\n"
+            "4,0.160000,by day,20,0.800000,1.25,0.333333333,1,0.97,1.5,0.75,-14.32,0.500,-0.125,"
+            "\"gate, north\",-2.5\n"
+            "9,0.360000,,,,,0,0,,,,,,,,\n"
+            "12,0.480000,by day,0,0.000000,,-0.5,0,,,,,,,,\n");
 }
 
 TEST(MatchesCsv, ReadsBackTheSameText) {
