@@ -17,6 +17,7 @@ Band turn_band(const std::vector<vo::WalkedTurn>& turns);
 /// frames and separations (1b) and its course with the windows left out (10), the mean curve (2) and the
 /// learned relation (3). `data`: see `alignment_data`; empty: nothing is shown. `turns`: marked in the
 /// course.
-void put_alignment(Page& page, const nlohmann::ordered_json& data, const std::vector<vo::WalkedTurn>& turns = {});
+void put_alignment(Page& page, const nlohmann::ordered_json& data,
+                   const std::vector<vo::WalkedTurn>& turns = {});
 
 }  // namespace retrace

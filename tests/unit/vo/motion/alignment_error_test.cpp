@@ -149,8 +149,8 @@ TEST(AlignmentErrors, AreTheSameForAnyThreadCount) {
 }
 
 TEST(ErrorCourse, WorkedExample) {
-  // Five frames 0.1 s apart, one span; the last has no successor and takes its neighbour's. The usual error is
-  // (1 + 1 + 4 + 2) / 4 = 2. A window of 0.2 s holds a frame and its neighbours.
+  // Five frames 0.1 s apart, one span; the last has no successor and takes its neighbour's. The usual error
+  // is (1 + 1 + 4 + 2) / 4 = 2. A window of 0.2 s holds a frame and its neighbours.
   const vo::ErrorCourse course = vo::error_course(errors_of({1, 1, 4, 2, 9}, 1), times(5), {},
                                                   {.spans = 1, .smoothing_s = 0.21, .high_error_mads = 2});
   EXPECT_THAT(course.relative, ElementsAre(0.5, 0.5, 2, 1, 1));
