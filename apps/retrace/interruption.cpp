@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
 #include <string_view>
 #include <thread>
@@ -16,6 +17,7 @@ namespace {
 std::array<int, 2> pipe_ends{-1, -1};
 std::atomic<int> recordings = 0;
 std::atomic<bool> recording_ended = false;
+bool one_of_many = false;  ///< started by mpirun, which ends the others when one ends, and says so
 
 static_assert(std::atomic<int>::is_always_lock_free, "atomics in a signal handler");
 
@@ -31,8 +33,10 @@ extern "C" void pass_on_signal(int signal) {
   while (::read(pipe_ends[0], &signal, 1) != 1) {
   }
   vo::discard_partial_paths();
-  constexpr std::string_view kSaid = "retrace: interrupted; what was not finished is not kept\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  if (!one_of_many) {
+    constexpr std::string_view kSaid = "retrace: interrupted; what was not finished is not kept\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  }
   constexpr int kOfSignals = 128;  // as shells count
   ::_exit(kOfSignals + signal);
 }
@@ -40,6 +44,7 @@ extern "C" void pass_on_signal(int signal) {
 }  // namespace
 
 void end_on_signals() {
+  one_of_many = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return;  // then they end the program at once
   std::thread(end_program).detach();
   for (const int signal : {SIGINT, SIGTERM}) {
