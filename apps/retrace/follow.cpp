@@ -11,9 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -34,8 +32,6 @@
 namespace retrace {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kPatience_s = 10;  // a camera that sends no picture for so long hangs
 
 struct FollowOptions {
@@ -48,31 +44,6 @@ struct FollowOptions {
   bool announce = false;
   std::optional<std::size_t> view;
   std::string view_address = FollowViewOptions{}.address;
-};
-
-/// A line goes out as soon as it is known, and into a file, which has its name once it is complete.
-class Lines {
- public:
-  explicit Lines(const std::string& folder) : folder_(folder) {
-    if (!folder_.empty()) file_.open(part());
-  }
-  void write(const std::string& line) {
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
-    if (!folder_.empty()) file_ << line << '\n';
-  }
-  void finish() {
-    if (folder_.empty()) return;
-    file_.close();
-    if (!file_) throw vo::Error(part().string(), "cannot be written", "a disk with room");
-    fs::rename(part(), folder_ / "follow.jsonl");
-  }
-
- private:
-  [[nodiscard]] fs::path part() const { return folder_ / "follow.jsonl.part"; }
-
-  fs::path folder_;
-  std::ofstream file_;
 };
 
 /// What an earlier run may have left that this one does not write: it would belong to other matches.
@@ -108,7 +79,7 @@ void follow(const FollowOptions& options) {
   if (is_live(options.walk)) newest.emplace(std::move(source));
 
   const EndableReading endable;
-  Lines lines(options.output);
+  FollowLines lines(options.output);
   FollowRecord record;
   FollowMatches matches(route);
   FollowRun run{.walk = options.walk, .route = options.route, .lag_s = options.lag_s};

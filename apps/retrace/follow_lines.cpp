@@ -3,9 +3,13 @@
 #include "json_file.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <vo/base/error.hpp>
 
 namespace retrace {
 namespace {
@@ -59,6 +63,23 @@ std::string event_line(const place::FollowEvent& event) {
   if (event.distance_m) json["distance_m"] = rounded_to(*event.distance_m, kHundredths);
   if (event.turn_deg) json["turn_deg"] = rounded_to(*event.turn_deg, 1);
   return json_text(json);
+}
+
+FollowLines::FollowLines(const std::string& folder) : folder_(folder) {
+  if (!folder_.empty()) file_.open(part());
+}
+
+void FollowLines::write(const std::string& line) {
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+  if (!folder_.empty()) file_ << line << '\n';
+}
+
+void FollowLines::finish() {
+  if (folder_.empty()) return;
+  file_.close();
+  if (!file_) throw vo::Error(part().string(), "cannot be written", "a disk with room");
+  std::filesystem::rename(part(), folder_ / "follow.jsonl");
 }
 
 }  // namespace retrace

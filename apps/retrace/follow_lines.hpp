@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <place/certainty/announcer.hpp>
@@ -12,5 +14,23 @@ std::string follow_line(const place::Position& position);
 
 /// An event as such a line.
 std::string event_line(const place::FollowEvent& event);
+
+/// The lines of a walk: each goes to standard output as soon as it is known, and into `follow.jsonl` in a
+/// folder, which has its name once it is complete.
+class FollowLines {
+ public:
+  /// `folder`: empty for none.
+  explicit FollowLines(const std::string& folder);
+
+  void write(const std::string& line);
+  /// Throws `vo::Error` naming the file if not all of it could be written.
+  void finish();
+
+ private:
+  [[nodiscard]] std::filesystem::path part() const { return folder_ / "follow.jsonl.part"; }
+
+  std::filesystem::path folder_;
+  std::ofstream file_;
+};
 
 }  // namespace retrace
