@@ -11,6 +11,7 @@
 
 #include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
+#include <vo/io/atomic_file.hpp>
 #include <vo/io/partial_path.hpp>
 
 namespace simulate {
@@ -20,33 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr int kBatch = 16;  // frames drawn at a time, while the batch before is encoded
 
-// A file that appears under its name when it is whole, or not at all.
-class PendingFile {
- public:
-  PendingFile(fs::path path, bool overwrite)
-      : path_(std::move(path)),
-        temporary_(path_.parent_path() / (".unfinished-" + path_.filename().string())) {
-    if (fs::exists(path_) && !overwrite) {
-      throw vo::Error(path_.string(), "exists already", "a new folder, or --force to overwrite");
-    }
-  }
+vo::Error cannot_be_written(const fs::path& file) {
+  return {file.string(), "cannot be written", "a folder with room for it"};
+}
 
-  [[nodiscard]] std::string temporary() const { return temporary_.path().string(); }
-  void commit() {
-    if (const int error = temporary_.rename_to(path_); error != 0)
-      throw vo::Error(path_.string(), "cannot be written: " + std::generic_category().message(error));
-  }
-  [[nodiscard]] vo::Error failure() const {
-    return {path_.string(), "cannot be written", "a folder with room for it"};
-  }
-
- private:
-  fs::path path_;
-  vo::PartialPath temporary_;
-};
-
-void write_truth(const WalkSimulator& walk, int frames, const PendingFile& file) {
-  std::ofstream out(file.temporary());
+/// False if it could not be written.
+bool write_truth(const WalkSimulator& walk, int frames, const fs::path& file) {
+  std::ofstream out(file);
   out << "frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n";
   for (int i = 0; i < frames; ++i) {
     const TruthRow row = walk.truth(i);
@@ -54,7 +35,7 @@ void write_truth(const WalkSimulator& walk, int frames, const PendingFile& file)
                        row.heading_deg, row.distance_m, row.steps);
   }
   out.close();
-  if (!out) throw file.failure();
+  return !out.fail();
 }
 
 }  // namespace
@@ -68,13 +49,21 @@ Recording simulate_walk(const Options& options, const fs::path& directory, bool 
     made.emplace(directory.has_filename() ? directory : directory.parent_path(), vo::Removal::kIfEmpty);
   if (failure)
     throw vo::Error(directory.string(), "cannot be made: " + failure.message(), "a folder one may write to");
-  PendingFile video(directory / "walk.mp4", overwrite);
-  PendingFile truth(directory / "truth.csv", overwrite);
+  constexpr const char* kVideo = "walk.mp4";
+  constexpr const char* kTruth = "truth.csv";
+  for (const char* name : {kVideo, kTruth}) {
+    if (fs::exists(directory / name) && !overwrite)
+      throw vo::Error((directory / name).string(), "exists already", "a new folder, or --force to overwrite");
+  }
+  // Both are written to a hidden folder, from which they appear together, or not at all.
+  vo::remove_abandoned(directory / "walk");
+  vo::PartialPath staged(vo::partial_name(directory / "walk"));
+  if (!fs::create_directory(staged.path(), failure)) throw cannot_be_written(directory);
 
   const WalkSimulator walk(options);
-  cv::VideoWriter writer(video.temporary(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
-                         options.frame_rate_hz, options.size);
-  if (!writer.isOpened()) throw video.failure();
+  cv::VideoWriter writer((staged.path() / kVideo).string(), cv::CAP_FFMPEG,
+                         cv::VideoWriter::fourcc('m', 'p', '4', 'v'), options.frame_rate_hz, options.size);
+  if (!writer.isOpened()) throw cannot_be_written(directory / kVideo);
 
   const int total = walk.frame_count();
   Recording recording;
@@ -100,9 +89,9 @@ Recording simulate_walk(const Options& options, const fs::path& directory, bool 
   writer.release();
   if (progress && going_on) progress({"drawing the walk", total, total});
 
-  write_truth(walk, recording.frames, truth);
-  video.commit();
-  truth.commit();
+  if (!write_truth(walk, recording.frames, staged.path() / kTruth))
+    throw cannot_be_written(directory / kTruth);
+  staged.release_into(directory);
   recording.last = walk.truth(recording.frames - 1);
   return recording;
 }
