@@ -22,7 +22,7 @@ from retrace_cli import RETRACE, check, draw_walk, street  # noqa: E402
 
 SHIM = os.environ["RETRACE_DISK_SHIM"]
 ALL = os.environ.get("RETRACE_FAULTS") == "all"
-FEW = 4  # operations tried of a command, besides the first and the last
+FEW = 2  # operations tried of a command, besides the first and the last
 SETTINGS = ["--motion", "none", "--every", "1", "--descriptor", "thumbnail"]
 
 # Each command, and what it changes in its workspace; {w} is the workspace, {walks} are walks outside it.
