@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ++i;
   }
   constexpr std::size_t kPage = 1U << 20U;  // the page, its texts and axes
-  const retrace::OdometryTruth truth{.way = {{0, 0}, {0, 10}}};
+  const retrace::OdometryTruth truth{.map_path = {{0, 0}, {0, 10}}};
   fuzz::call_one(size,
                  {[] { retrace::odometry_report(fuzz::folder()); },
                   [&] { retrace::odometry_report(fuzz::folder(), &truth); }},

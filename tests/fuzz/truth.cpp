@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       {.query_frame = 3, .place = place::Place{.frame = 2}, .score = 2, .probability = 0.5}};
   fuzz::call_one(size, {[&] {
                           const vo::WalkTruth truth = vo::read_truth(file);
-                          vo::poses_on_the_way(truth);
+                          vo::poses_along_route(truth);
                           vo::steps_in_all(truth);
                         },
                         [&] {
