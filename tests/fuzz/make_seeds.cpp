@@ -72,6 +72,7 @@ place::Route small_route(bool full) {
 
 /// The route's file with pages of 512 bytes, so that it is short.
 std::string database_of(const place::Route& route, const fs::path& scratch) {
+  fs::create_directories(scratch);
   const fs::path file = scratch / "seed.db";
   place::write_route(file, route);
   sqlite3* database = nullptr;
