@@ -4,6 +4,11 @@
 #include "fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::call(size, [&] { vo::gpmf_positions({data, size}); });
+  fuzz::call_one(size, {[&] {
+                          vo::gpmf_positions({data, size});
+                        },
+                        [&] {
+                          vo::gpmf_accelerations({data, size});
+                        }});
   return 0;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 
 namespace vo {
@@ -31,18 +33,11 @@ std::vector<double> evenly(std::span<const double> values, std::span<const doubl
   return even;
 }
 
-/// How a window of the signal repeats: after how many samples, and how well; 0 samples if it does not.
-struct Repetition {
-  double period = 0;
-  double deviation = 0;
-};
-
-Repetition repetition(std::span<const double> window) {
+/// After how many samples a window of the signal repeats; 0 if it does not.
+double period_of(std::span<const double> window) {
   double power = 0;
   for (const double value : window) power += value * value;
-  const auto n = static_cast<double>(window.size());
-  Repetition found{.deviation = std::sqrt(power / n)};
-  if (!(power > 0)) return found;
+  if (!(power > 0)) return 0;
   const auto correlation = [&](std::size_t lag) {
     double product = 0, first = 0, second = 0;
     for (std::size_t i = lag; i < window.size(); ++i) {
@@ -60,13 +55,12 @@ Repetition repetition(std::span<const double> window) {
   double best = 0;
   for (std::size_t i = 1; i + 1 < at.size(); ++i)
     if (at[i] >= at[i - 1] && at[i] >= at[i + 1]) best = std::max(best, at[i]);
-  if (best < kRegular) return found;
+  if (best < kRegular) return 0;
   for (std::size_t i = 1; i + 1 < at.size(); ++i) {
     if (at[i] < at[i - 1] || at[i] < at[i + 1] || at[i] < kNearlyBest * best) continue;
-    found.period = static_cast<double>(shortest - 1 + i);
-    break;
+    return static_cast<double>(shortest - 1 + i);
   }
-  return found;
+  return 0;
 }
 
 }  // namespace
@@ -85,18 +79,18 @@ std::vector<double> acceleration_steps(std::span<const double> acceleration_m_s2
 
   constexpr auto kWindow = static_cast<std::size_t>(kWindow_s * kRate_hz);
   constexpr auto kHop = static_cast<std::size_t>(kHop_s * kRate_hz);
-  std::vector<Repetition> around;  // of the window about each hop
+  std::vector<double> period;  // of the window about each hop
   for (std::size_t middle = 0; middle < smooth.size(); middle += kHop) {
     const std::size_t begin =
         std::min(middle < kWindow / 2 ? 0 : middle - kWindow / 2, smooth.size() - kWindow);
-    around.push_back(repetition(std::span(smooth).subspan(begin, kWindow)));
+    period.push_back(period_of(std::span(smooth).subspan(begin, kWindow)));
   }
-  const auto near = [&](std::size_t i) -> const Repetition& {
-    return around[std::min((i + kHop / 2) / kHop, around.size() - 1)];
+  const auto period_near = [&](std::size_t i) {
+    return period[std::min((i + kHop / 2) / kHop, period.size() - 1)];
   };
-  /// Over the samples of a period about a peak: a walker who stops is still within a second.
-  const auto deviation = [&](std::size_t i, double period) {
-    const auto half = static_cast<std::size_t>(period / 2);
+  // Over the samples of a period about a peak: a walker who stops is still within a second.
+  const auto deviation = [&](std::size_t i, double samples) {
+    const auto half = static_cast<std::size_t>(samples / 2);
     const std::size_t begin = i < half ? 0 : i - half, end = std::min(i + half + 1, smooth.size());
     double power = 0;
     for (std::size_t k = begin; k < end; ++k) power += smooth[k] * smooth[k];
@@ -105,19 +99,18 @@ std::vector<double> acceleration_steps(std::span<const double> acceleration_m_s2
   std::vector<std::size_t> peaks;
   for (std::size_t i = 1; i + 1 < smooth.size(); ++i) {
     if (smooth[i] <= 0 || smooth[i] <= smooth[i - 1] || smooth[i] < smooth[i + 1]) continue;
-    const Repetition& here = near(i);
-    if (here.period > 0 && here.deviation > 0 && deviation(i, here.period) >= kDeviation_m_s2)
-      peaks.push_back(i);
+    const double here = period_near(i);
+    if (here > 0 && deviation(i, here) >= kDeviation_m_s2) peaks.push_back(i);
   }
   std::ranges::stable_sort(peaks, std::greater<>(), [&](std::size_t i) { return smooth[i]; });
-  std::vector<std::size_t> steps;
+  std::set<std::size_t> steps;
   for (const std::size_t peak : peaks) {
-    const auto apart = static_cast<std::size_t>(kApart * near(peak).period);
-    const bool free = std::ranges::none_of(
-        steps, [&](std::size_t step) { return (step > peak ? step - peak : peak - step) < apart; });
-    if (free) steps.push_back(peak);
+    const auto apart = static_cast<std::size_t>(kApart * period_near(peak));
+    const auto after = steps.lower_bound(peak);
+    const bool free = (after == steps.end() || *after - peak >= apart) &&
+                      (after == steps.begin() || peak - *std::prev(after) >= apart);
+    if (free) steps.insert(peak);
   }
-  std::ranges::sort(steps);
   std::vector<double> times_s;
   for (const std::size_t step : steps)
     times_s.push_back(time_s.front() + static_cast<double>(step) / kRate_hz);

@@ -151,7 +151,7 @@ StepDetection complete_steps(StepDetection detection, const StepDistance& walked
   };
   // Up to a step lies between an end of the recording and the nearest footfall; distance is known only to a
   // quarter step.
-  const auto lost = [](double steps_of_way) { return std::max(0.0, std::floor(steps_of_way - 0.25)); };
+  const auto lost = [](double steps_walked) { return std::max(0.0, std::floor(steps_walked - 0.25)); };
 
   const double before = walked.between(0, detection.steps.front().frame);
   for (double k = lost(before); k >= 1; --k) add_lost(walked.after(0, before - k));

@@ -2,6 +2,7 @@
 
 #include "vo/base/error.hpp"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -42,9 +43,12 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// The beginning of a temporary's name; the process id follows.
+/// The beginning of a temporary's name; the process id follows. With the host, as in a shared folder a number
+/// may be that of another machine's process.
 std::string beginning(const fs::path& path) {
-  return fmt::format(".{}.partial-", path.filename().string());
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format(".{}.partial-{}-", path.filename().string(), host.data());
 }
 
 }  // namespace

@@ -264,4 +264,13 @@ std::vector<std::int64_t> CsvTable::indices(std::string_view column) const {
   return values;
 }
 
+std::string csv_cell(std::string_view text) {
+  const bool plain = text.find_first_of(",;\t\"#\r\n") == std::string_view::npos && !text.starts_with(' ') &&
+                     !text.ends_with(' ');
+  if (plain) return std::string(text);
+  std::string cell = "\"";
+  for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+  return cell + '"';
+}
+
 }  // namespace vo

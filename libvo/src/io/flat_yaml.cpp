@@ -79,7 +79,7 @@ FlatYaml read_flat_yaml(const std::vector<TextLine>& lines) {
     if (content.starts_with("- ")) {
       // Of the key before it, which may be as far in.
       while (!levels.empty() && levels.back().indent > indent) levels.pop_back();
-      if (levels.empty()) continue;
+      if (levels.empty() || levels.back().path.size() > kLongestPath) continue;
       std::string& list = yaml[levels.back().path];
       list.append(list.empty() ? "" : ", ").append(trimmed(content.substr(1)));
       brackets = open_brackets(content);
@@ -91,7 +91,10 @@ FlatYaml read_flat_yaml(const std::vector<TextLine>& lines) {
     while (!levels.empty() && levels.back().indent >= indent) levels.pop_back();
     std::string path = levels.empty() ? std::string() : levels.back().path + '.';
     path += unquoted(content.substr(0, colon));
-    if (path.size() > kLongestPath || yaml.size() >= kMostKeys) continue;
+    if (path.size() > kLongestPath || yaml.size() >= kMostKeys) {
+      levels.push_back({indent, std::string(kLongestPath + 1, ' ')});  // what it holds is skipped too
+      continue;
+    }
     std::string& value = yaml[path];
     value = unquoted(untagged(content.substr(colon + 1)));
     brackets = open_brackets(value);

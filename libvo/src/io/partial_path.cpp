@@ -65,15 +65,21 @@ int PartialPath::rename_to(const fs::path& name) {
   return 0;
 }
 
-void PartialPath::release_into(const fs::path& folder) {
+void PartialPath::release_into(const fs::path& folder, const std::vector<std::string>& stale) {
   const std::scoped_lock lock(partial_registry().mutex);
+  std::error_code error;
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path_)) files.push_back(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) files.push_back(entry.path());
+  if (error) throw Error(folder.string(), "cannot be written to: " + error.message());
   std::ranges::sort(files);
   for (const fs::path& file : files) {
     const fs::path to = folder / file.filename();
     if (std::rename(file.c_str(), to.c_str()) != 0)
       throw Error(to.string(), "cannot be written: " + std::generic_category().message(errno));
+  }
+  for (const std::string& name : stale) {
+    const bool written = std::ranges::any_of(files, [&](const fs::path& f) { return f.filename() == name; });
+    if (!written) fs::remove(folder / name, error);
   }
 }
 

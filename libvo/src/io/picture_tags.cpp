@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <exiv2/exiv2.hpp>
+#include <fstream>
 #include <stdexcept>
 
 namespace vo {
@@ -68,6 +69,8 @@ void take_position(const Exiv2::ExifData& data, PictureTags& tags) {
 }  // namespace
 
 PictureTags read_picture_tags(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path) || !std::ifstream(path))
+    throw Error(path.string(), "cannot be read", "a picture");
   Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // damaged tags are left out here, not printed
   PictureTags tags;
   try {
@@ -75,8 +78,9 @@ PictureTags read_picture_tags(const std::filesystem::path& path) {
     picture->readMetadata();
     take_time(picture->exifData(), tags);
     take_position(picture->exifData(), tags);
-  } catch (const Exiv2::Error& error) {
-    if (!std::filesystem::is_regular_file(path)) throw Error(path.string(), "cannot be read", "a picture");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {  // damaged data: what was read before is used
   }
   return tags;
 }

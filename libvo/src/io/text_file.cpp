@@ -55,7 +55,10 @@ std::vector<char> from_utf16(std::string_view bytes, bool big_endian) {
 /// The text of a file in UTF-8, by its byte order mark.
 std::vector<char> decoded(std::vector<char> bytes) {
   const std::string_view all(bytes.data(), bytes.size());
-  if (all.starts_with("\xEF\xBB\xBF")) bytes.erase(bytes.begin(), bytes.begin() + 3);
+  if (all.starts_with("\xEF\xBB\xBF")) {
+    bytes.erase(bytes.begin(), bytes.begin() + 3);
+    return bytes;
+  }
   if (all.starts_with("\xFF\xFE")) return from_utf16(all.substr(2), false);
   if (all.starts_with("\xFE\xFF")) return from_utf16(all.substr(2), true);
   return bytes;

@@ -18,7 +18,7 @@ namespace vo {
 /// periodicity in place of a fixed window. Neither a camera at rest nor one in a car that shakes has steps.
 ///
 /// `acceleration_m_s2`: lengths of the vectors, with gravity; `time_s`: one for each, increasing. Throws
-/// `std::invalid_argument` for other sizes or times. Nothing for less than 4 s. O(time).
+/// `std::invalid_argument` for other sizes or times. Nothing for less than 4 s. O(time * log steps).
 std::vector<double> acceleration_steps(std::span<const double> acceleration_m_s2,
                                        std::span<const double> time_s);
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace vo {
 
@@ -26,9 +28,10 @@ class PartialPath {
   /// the path is still partial.
   int rename_to(const std::filesystem::path& name);
 
-  /// For a folder: moves what it holds into another folder, over what is there, all of it before the program
-  /// can be told to end. Throws `vo::Error` naming the file that cannot be moved.
-  void release_into(const std::filesystem::path& folder);
+  /// For a folder: moves what it holds into another folder, over what is there, and removes those files
+  /// called `stale` there that it does not hold, all before the program can be told to end. Throws
+  /// `vo::Error` naming the file that cannot be moved.
+  void release_into(const std::filesystem::path& folder, const std::vector<std::string>& stale = {});
 
  private:
   std::filesystem::path path_;

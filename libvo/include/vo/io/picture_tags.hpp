@@ -24,9 +24,9 @@ struct PictureTags {
 PictureTags read_picture_tags(const std::filesystem::path& path);
 
 /// Seconds since the first picture by the pictures' own clocks, one for each; strictly increasing. Where
-/// pictures share a second, as clocks without fractions give it, they are spread evenly over the time to the
-/// next one. `files`: of one walk, in order. Throws `vo::Error` naming the first picture that has no time or
-/// was taken before the one in front of it. O(files).
+/// pictures share a second, as clocks without fractions give it, they are spread evenly over that second, or
+/// over the time to the next picture if that is shorter. `files`: of one walk, in order. Throws `vo::Error`
+/// naming the first picture that has no time or was taken before the one in front of it. O(files).
 std::vector<double> picture_times_s(const std::vector<std::string>& files,
                                     const std::vector<PictureTags>& tags);
 

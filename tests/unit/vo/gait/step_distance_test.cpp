@@ -136,7 +136,7 @@ TEST(CompleteSteps, LeavesWhatWasBegunBeforeAndWhatIsNotDone) {
                 ElementsAre(first, first + 5, first + 10, first + 15));
 }
 
-TEST(CompleteSteps, TellsWhatIsMadeOfThoseAtTheEnds) {
+TEST(CompleteSteps, ShowsWhatIsMadeOfThoseAtTheEnds) {
   const std::vector<double> growth(22, 0.02);
   const auto time_s = seconds(22);
   const std::vector<std::size_t> frames{3, 8, 13, 18};
@@ -169,7 +169,7 @@ TEST(CompleteSteps, LegsOfBridgedStepsAlternate) {
   for (std::size_t i = 1; i < all.steps.size(); ++i) EXPECT_NE(all.steps[i].leg, all.steps[i - 1].leg) << i;
 }
 
-TEST(CompleteSteps, KeepsTheLargerOfTwoWithNoWayBetweenThem) {
+TEST(CompleteSteps, KeepsTheLargerOfTwoWithNoDistanceBetweenThem) {
   std::vector<double> growth(81, 0.02);
   for (std::size_t i = 26; i < 51; ++i) growth[i] = 0;
   // The step at 25 is seen again at 50, where the walker starts.

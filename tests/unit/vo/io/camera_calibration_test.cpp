@@ -239,7 +239,7 @@ TEST_F(CameraCalibration, TakesNoMemoryForWhatIsOnlyClaimed) {
 
 TEST_F(CameraCalibration, PassesOverKeysThatNoCalibrationHas) {
   std::string text = std::string(kRos) + "\n" + std::string(100, 'k') + ":\n";
-  for (int i = 0; i < 3; ++i) text += " k" + std::to_string(i) + ": 1\n";
+  text += " image_width: 1\n";
   EXPECT_EQ(vo::read_camera_calibration(file(text)).width_px, 640);
 }
 

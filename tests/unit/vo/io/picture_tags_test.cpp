@@ -70,6 +70,13 @@ TEST(PictureTags, DamagedDataAreLeftOut) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   for (std::size_t cut = 0; cut < whole.size() + 20; cut += 3)
     EXPECT_NO_THROW(vo::read_picture_tags(folder.write("cut.jpg", bytes.substr(0, cut)))) << cut;
+  for (std::size_t at = 2; at < whole.size() + 12; ++at) {
+    for (const int value : {0, 0x7F, 0xFF}) {
+      std::string damaged = bytes;
+      damaged[at] = static_cast<char>(value);
+      EXPECT_NO_THROW(vo::read_picture_tags(folder.write("hit.jpg", damaged))) << at;
+    }
+  }
 }
 
 std::vector<vo::PictureTags> at(const std::vector<double>& times_s) {

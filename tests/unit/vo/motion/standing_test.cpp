@@ -76,7 +76,7 @@ TEST(StandingStill, IsBelowAThirdOfUnrelatedPictures) {
   EXPECT_FALSE(vo::standing_still(0.3762));
 }
 
-TEST(StandingSteps, AreThoseOfAPlantedStop) {
+TEST(StandingFrames, AreThoseOfAPlantedStop) {
   // The walker arrives at frame 40 and leaves after frame 79: the steps to 41 .. 79 are standing.
   const auto walk = walk_with_a_stop(120, 40, 80);
   const auto standing = vo::standing_frames(walk, times(120), vo::distant_error(walk));
@@ -84,7 +84,7 @@ TEST(StandingSteps, AreThoseOfAPlantedStop) {
   for (std::size_t i = 0; i < 120; ++i) EXPECT_EQ(standing[i], i >= 41 && i <= 79) << i;
 }
 
-TEST(StandingSteps, ReachTheEndsOfTheWalk) {
+TEST(StandingFrames, ReachTheEndsOfTheWalk) {
   const auto start = walk_with_a_stop(100, 0, 40);
   const auto at_start = vo::standing_frames(start, times(100), vo::distant_error(start));
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(at_start[i], i >= 1 && i <= 39) << i;
@@ -93,7 +93,7 @@ TEST(StandingSteps, ReachTheEndsOfTheWalk) {
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(at_end[i], i >= 61) << i;
 }
 
-TEST(StandingSteps, DoNotSeeAStopShorterThanTheSpan) {
+TEST(StandingFrames, DoNotSeeAStopShorterThanTheSpan) {
   const auto walk = walk_with_a_stop(120, 40, 55);  // 1.75 s
   const double unlike = vo::distant_error(walk);
   EXPECT_THAT(vo::standing_frames(walk, times(120), unlike), Each(false));
@@ -102,7 +102,7 @@ TEST(StandingSteps, DoNotSeeAStopShorterThanTheSpan) {
   EXPECT_THAT(vo::standing_frames(walk, times(120), unlike, {.span_s = 0}), Each(false));
 }
 
-TEST(StandingSteps, ArePassedOverWhereOnlyTheEndsOfASpanAreAlike) {
+TEST(StandingFrames, ArePassedOverWhereOnlyTheEndsOfASpanAreAlike) {
   // The same picture every 2 s and unlike ones between, as along a fence.
   vo::ImageStack walk = random_images(16, 8, 100, 3);
   for (std::size_t i = 16; i < 100; i += 16) std::ranges::copy(walk[0], walk[i].begin());
@@ -112,7 +112,7 @@ TEST(StandingSteps, ArePassedOverWhereOnlyTheEndsOfASpanAreAlike) {
   EXPECT_EQ(std::ranges::count(vo::standing_frames(walk, times(100), vo::distant_error(walk)), true), 96);
 }
 
-TEST(StandingSteps, SayNothingOfPicturesOfNothing) {
+TEST(StandingFrames, SayNothingOfPicturesOfNothing) {
   // Black for 5 s, a trace of noise in it, between walking; and a stop of 5 s that goes black for the last 2.
   vo::ImageStack walk = walk_with_a_stop(160, 100, 140);
   for (std::size_t i = 40; i < 80; ++i)
@@ -122,7 +122,7 @@ TEST(StandingSteps, SayNothingOfPicturesOfNothing) {
   for (std::size_t i = 0; i < 160; ++i) EXPECT_EQ(standing[i], i >= 101 && i <= 123) << i;
 }
 
-TEST(StandingSteps, GoByTimeNotByFrames) {
+TEST(StandingFrames, GoByTimeNotByFrames) {
   // 1 Hz: a span of 2 s is 2 frames.
   const auto walk = walk_with_a_stop(12, 4, 8);
   std::vector<double> time_s(12);
@@ -131,7 +131,7 @@ TEST(StandingSteps, GoByTimeNotByFrames) {
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(standing[i], i >= 5 && i <= 7) << i;
 }
 
-TEST(StandingSteps, AreNotFoundOverAJumpOfTheClock) {
+TEST(StandingFrames, AreNotFoundOverAJumpOfTheClock) {
   // One view in all of the frames around the jump, too short on both sides to be a stand.
   const auto walk = walk_with_a_stop(120, 50, 70);
   std::vector<double> time_s = times(120);
@@ -165,13 +165,13 @@ TEST(FindStands, SayThatAWalkNeverLeavesItsFirstView) {
   EXPECT_TRUE(vo::find_pauses(random_images(4, 4, 1, 1), times(1)).still);
 }
 
-TEST(StandingSteps, OfEmptyAndMismatchedInput) {
+TEST(StandingFrames, OfEmptyAndMismatchedInput) {
   EXPECT_THAT(vo::standing_frames(random_images(4, 4, 0, 1), {}, 1), IsEmpty());
   EXPECT_THAT(vo::standing_frames(random_images(4, 4, 1, 1), times(1), 1), testing::ElementsAre(false));
   EXPECT_THROW(vo::standing_frames(random_images(4, 4, 2, 1), times(3), 1), std::invalid_argument);
 }
 
-TEST(StandingSteps, AreTheSameForAnyThreadCount) {
+TEST(StandingFrames, AreTheSameForAnyThreadCount) {
   const auto walk = walk_with_a_stop(120, 40, 80);
   vo::set_thread_count(1);
   const auto one = vo::standing_frames(walk, times(120), 1);
