@@ -13,8 +13,8 @@ namespace test_support {
 /// A team whose members are threads of this process.
 class ThreadTeam {
  public:
-  /// Runs `body` as each of `size` members and returns when all are done. Rethrows the first member's
-  /// failure; all members must fail alike, or none.
+  /// Runs `body` as each of `size` members and returns when all are done. Rethrows the failure
+  /// of the first member that failed.
   static void run(std::size_t size, const std::function<void(place::Team&)>& body) {
     Board board(size);
     std::vector<std::exception_ptr> failures(size);
@@ -26,11 +26,13 @@ class ThreadTeam {
           body(member);
         } catch (...) {
           failures[rank] = std::current_exception();
+          board.all_are_here.arrive_and_drop();  // the others do not wait for it
         }
       });
     }
     for (std::thread& thread : threads) thread.join();
-    if (failures.front()) std::rethrow_exception(failures.front());
+    for (const std::exception_ptr& failure : failures)
+      if (failure) std::rethrow_exception(failure);
   }
 
  private:

@@ -27,13 +27,14 @@ constexpr double kFound = 0.9;                // probability at which a walker w
 constexpr double kLost = 0.4;                 // below which one who was is not
 constexpr double kLeft = 0.5;           // of being off the route, at which one who was on it has left it
 constexpr double kLeastContrast = 0.2;  // share of the usual below which a picture shows nothing
-// The cost at which a place is as probable as none: one deviation below the mean, as in `search_path`, until
-// it is known what costs this walk has where it is on the route; then this share of them, so that a street
-// like the route's is told from it. Chosen on two walks with a detour, reported on others (tests/RESULTS.md).
+// The cost at which a place is as probable as being off the route: one deviation below the mean, as in
+// `search_path`. Once this walk's usual cost on the route is known, at least this share of it, so that a
+// street that looks like the route is not taken for it. Chosen on two walks with a detour, reported on others
+// (tests/RESULTS.md).
 constexpr double kLeastEven = 1, kEvenShare = 0.55;
-// The filter spreads every move over half a keyframe at least, so that small ones reach the next, and errors
-// are this share of its deviation: so 90 % of them are within 1.64 times what is said, on 16 drawn walks;
-// reported on others (tests/RESULTS.md).
+// The filter spreads every move over at least half a keyframe, so that small moves reach the next one; its
+// deviation is therefore too large. Errors are this share of it: 90 % of them were within 1.64 times the
+// result on 16 drawn walks; reported on others (tests/RESULTS.md).
 constexpr double kErrorShare = 0.75;
 constexpr double kBetweenKeyframes = 0.3;  // standard deviation of a place that a keyframe stands for
 

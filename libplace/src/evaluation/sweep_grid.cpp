@@ -114,7 +114,7 @@ bool shapes_the_matrix(const std::string& setting) {
 
 CellResult as_written(CellResult result) {
   for (const Column& column : kColumns)
-    result.*column.value = std::stod(fmt::format("{:.9g}", result.*column.value));
+    result.*column.value = vo::parse_number(fmt::format("{:.9g}", result.*column.value)).value_or(0);
   return result;
 }
 

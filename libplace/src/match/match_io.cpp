@@ -41,14 +41,6 @@ std::string cell_of(const std::optional<double>& value) {
   return value ? fmt::format("{:.6g}", *value) : std::string();
 }
 
-/// A text as a cell, in quotes where it has what would end it [RFC 4180].
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",;\t\"#\r\n") == std::string::npos) return text;
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return cell + '"';
-}
-
 // The reference frame comes first among those of the place: it says whether there is one.
 using Column = vo::CsvColumn<Match>;
 constexpr std::array kColumns{
@@ -133,7 +125,7 @@ constexpr std::array kColumns{
              return cell.empty() || read_number(cell, m.ahead_m.emplace());
            },
            kNumber, false},
-    Column{"nearest_place", [](const Match& m) { return quoted(m.nearest_place); },
+    Column{"nearest_place", [](const Match& m) { return vo::csv_cell(m.nearest_place); },
            [](Match& m, std::string_view cell) {
              m.nearest_place = cell;
              return true;

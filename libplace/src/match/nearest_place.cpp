@@ -37,10 +37,10 @@ std::vector<Landmark> landmarks_on(const Route& route, std::size_t traverse) {
   return landmarks;
 }
 
-/// Metres to a landmark, or keyframes where either is not surveyed.
-double from(const Place& at, const Landmark& landmark) {
-  return at.distance_m && landmark.distance_m ? *landmark.distance_m - *at.distance_m
-                                              : landmark.keyframe - static_cast<double>(at.keyframe);
+/// Metres, or else keyframes, to a landmark.
+double from(const Place& at, const Landmark& landmark, bool in_metres) {
+  return in_metres ? *landmark.distance_m - *at.distance_m
+                   : landmark.keyframe - static_cast<double>(at.keyframe);
 }
 
 }  // namespace
@@ -59,11 +59,14 @@ void name_places(std::span<Match> matches, const Route& route) {
       throw std::invalid_argument("name_places: matches on keyframes of the route expected");
     const std::vector<Landmark>& there =
         landmarks[static_cast<std::size_t>(traverse - route.traverses.begin())];
-    const auto nearest =
-        std::ranges::min_element(there, {}, [&](const Landmark& one) { return std::abs(from(at, one)); });
+    const bool in_metres = at.distance_m && std::ranges::all_of(there, [](const Landmark& one) {
+                             return one.distance_m.has_value();
+                           });
+    const auto nearest = std::ranges::min_element(
+        there, {}, [&](const Landmark& one) { return std::abs(from(at, one, in_metres)); });
     if (nearest == there.end()) continue;
     match.nearest_place = *nearest->name;
-    if (at.distance_m && nearest->distance_m) match.nearest_place_m = from(at, *nearest);
+    if (at.distance_m && nearest->distance_m) match.nearest_place_m = from(at, *nearest, true);
   }
 }
 

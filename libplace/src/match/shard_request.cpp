@@ -31,6 +31,8 @@ Team::Message message_of(const ShardRequest& request) {
     message.put(value.has_value());
     if (value) put_text(message, *value);
   }
+  message.put(request.route_digest.has_value());
+  message.put(request.route_digest.value_or(0));
   message.put(request.traverse);
   message.put(request.query.size());
   for (const Descriptors& query : request.query) {
@@ -56,6 +58,9 @@ ShardRequest read_request(const Team::Message& message) {
   request.task = reader.get<ShardRequest::Task>();
   for (const Setting& setting : settings_table())
     if (reader.get<bool>()) set(request.settings, setting, get_text(reader));
+  const bool has_digest = reader.get<bool>();
+  const auto digest = reader.get<std::int64_t>();
+  if (has_digest) request.route_digest = digest;
   request.traverse = reader.get<std::size_t>();
   for (auto left = reader.get<std::size_t>(); left > 0; --left) {
     const std::string form = get_text(reader);

@@ -6,6 +6,8 @@
 #include "place/settings.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace place {
@@ -21,6 +23,7 @@ struct ShardRequest {
   };
   Task task = Task::kDone;
   Settings settings;
+  std::optional<std::int64_t> route_digest;  ///< with settings: of the route that the first member has read
   std::size_t traverse = 0;
   std::vector<Descriptors> query;    ///< comparable, of each kind that is compared
   std::vector<std::size_t> columns;  ///< keyframes, increasing; of a search none: all

@@ -42,7 +42,7 @@ class GivenCosts final : public CostSource {
 bool perform(const ShardRequest& request, StoredShard& shard) {
   switch (request.task) {
     case ShardRequest::Task::kSettings:
-      shard.use(request.settings);
+      shard.use(request.settings, request.route_digest);
       return true;
     case ShardRequest::Task::kProject:
       shard.project(request);
@@ -79,9 +79,10 @@ class StoredSearch::State {
 
   void prepare(const Settings& resolved, const Route& route) {
     check(resolved, route);
-    ShardRequest request{.task = ShardRequest::Task::kSettings, .settings = resolved};
+    ShardRequest request{
+        .task = ShardRequest::Task::kSettings, .settings = resolved, .route_digest = route.digest};
     tell(request);
-    shard_.use(resolved);
+    shard_.use(resolved, route.digest);
     for (const auto& descriptor : *shard_.options().descriptors) {
       const Metric metric = descriptor->traits().metric;
       if (metric != Metric::kCosine)
@@ -90,10 +91,9 @@ class StoredSearch::State {
   }
 
   CostMatrix scale_costs(std::size_t traverse, const Descriptors& query) {
-    constexpr std::size_t kLargest = 50'000;  // as `sample_walk`
     const std::size_t count = shard_.keyframes(traverse);
     const std::vector<std::size_t> columns =
-        count > kLargest ? shortlist(traverse, query, {}) : counted(count);
+        count > kMostForScale ? shortlist(traverse, query, {}) : counted(count);
     return std::move(costs(traverse, {query}, columns).front());
   }
 
@@ -159,16 +159,23 @@ class StoredSearch::State {
 
   /// A matrix of costs, a second one for the walk played backwards, and what is kept of all keyframes.
   void check_fits(std::size_t queries, std::size_t columns, std::size_t keyframes) const {
-    constexpr std::size_t kOfKeyframe = sizeof(Keyframe) + 96;  // with its projection in a tree
     constexpr std::size_t kProgram = std::size_t{192} << 20U;
     if (!memory_bytes_) return;
+    // A shortlist's projections are kept, copied for FLANN, and in the order of its tree; with pointers and
+    // nodes.
+    const bool shortlisted = columns < keyframes;
+    const std::size_t projections =
+        shortlisted
+            ? 3 * sizeof(float) * static_cast<std::size_t>(shard_.options().candidates.dimensions) + 40
+            : 0;
+    const std::size_t of_keyframe = sizeof(Keyframe) + 32 + projections;
     const std::size_t needed =
-        2 * sizeof(float) * queries * columns + kOfKeyframe * keyframes + *memory_bytes_ / 8 + kProgram;
+        2 * sizeof(float) * queries * columns + of_keyframe * keyframes + *memory_bytes_ / 8 + kProgram;
     if (needed <= *memory_bytes_) return;
     throw vo::Error(fmt::format("--memory {}", memory_text(*memory_bytes_)),
                     fmt::format("is too little: the costs of {} x {} keyframes take {} with the rest",
                                 queries, columns, memory_text(needed)),
-                    "more, or --candidates always");
+                    shortlisted ? "more" : "more, or --candidates always");
   }
 
   std::vector<CostMatrix> costs(std::size_t traverse, std::vector<Descriptors> query,

@@ -59,14 +59,18 @@ StoredShard::StoredShard(std::filesystem::path route, Team& team, std::size_t ch
                          SearchCallback callback)
     : route_(std::move(route)), team_(team), chunk_bytes_(chunk_bytes), callback_(std::move(callback)) {}
 
-void StoredShard::use(const Settings& resolved) {
+void StoredShard::use(const Settings& resolved, const std::optional<std::int64_t>& route_digest) {
   options_ = stage_options(resolved).matching;
+  route_digest_ = route_digest;
 }
 
 StoredDescriptors& StoredShard::stored(std::size_t traverse) {
   const auto found = stored_.find(traverse);
   if (found != stored_.end()) return found->second;
-  return stored_.emplace(traverse, StoredDescriptors(route_, traverse)).first->second;
+  StoredDescriptors& opened = stored_.emplace(traverse, StoredDescriptors(route_, traverse)).first->second;
+  if (route_digest_ && opened.digest() != route_digest_)
+    throw vo::Error(route_.string(), "has changed since it was read", "no build on it meanwhile");
+  return opened;
 }
 
 std::uint64_t StoredShard::bytes_read() const {
@@ -112,6 +116,7 @@ StoredShard::Projected StoredShard::project(const ShardRequest& request) {
     all.pixels.insert(all.pixels.end(), pixels.begin(), pixels.end());
   Projected projected{CandidateFinder(all, options), {}};
   std::vector<float> own_rows;
+  own_rows.reserve(mine.size() * projected.finder.dimensions());
   in_parts(from.bytes_of_each(0), mine.begin, mine.end, [&](std::size_t first, std::size_t past) {
     const std::vector<float> rows = projected.finder.project(pictures(from.read(0, first, past)));
     own_rows.insert(own_rows.end(), rows.begin(), rows.end());

@@ -7,8 +7,10 @@
 #include "place/route/stored_descriptors.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace place {
@@ -20,7 +22,9 @@ class StoredShard {
   /// `chunk_bytes`: of descriptors read at a time.
   StoredShard(std::filesystem::path route, Team& team, std::size_t chunk_bytes, SearchCallback callback);
 
-  void use(const Settings& resolved);
+  /// `route_digest`: of the route that the first member has read, which the file must still be;
+  /// none: made in memory, and not compared.
+  void use(const Settings& resolved, const std::optional<std::int64_t>& route_digest);
   [[nodiscard]] const RouteMatchingOptions& options() const { return options_; }
   [[nodiscard]] std::size_t keyframes(std::size_t traverse) { return stored(traverse).size(); }
 
@@ -51,6 +55,7 @@ class StoredShard {
   std::size_t chunk_bytes_;
   SearchCallback callback_;
   RouteMatchingOptions options_;
+  std::optional<std::int64_t> route_digest_;
   std::map<std::size_t, StoredDescriptors> stored_;
 };
 

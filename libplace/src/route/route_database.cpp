@@ -2,10 +2,10 @@
 
 #include "place/version.hpp"
 #include "route/descriptor_rows.hpp"
-#include "route/keyframe_check.hpp"
 #include "route/optional_tables.hpp"
 #include "route/row_digests.hpp"
 #include "route/sqlite.hpp"
+#include "route/traverse_rows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,14 +23,9 @@
 namespace place {
 namespace {
 
-using descriptor_rows::bytes_of;
 using descriptor_rows::checksum;
 using descriptor_rows::damaged;
-using descriptor_rows::Form;
 using descriptor_rows::form_of;
-using descriptor_rows::make_of_form;
-using descriptor_rows::read_chunks;
-using descriptor_rows::write_chunks;
 using sqlite::Database;
 using sqlite::Statement;
 
@@ -90,171 +85,6 @@ void check(const Route& route) {
   }
 }
 
-/// The settings that a statement returns as name and value.
-Settings read_settings(Statement& rows, const std::string& path) {
-  Settings settings;
-  while (rows.step()) {
-    const std::string name = rows.text(), value = rows.text();
-    try {
-      set(settings, setting_named(name), value);
-    } catch (const vo::Error& error) {
-      damaged(path, fmt::format("its settings: {}", error.what()));
-    }
-  }
-  return settings;
-}
-
-void write_traverse(const Database& database, std::int64_t id, const Traverse& traverse) {
-  database.prepare("INSERT INTO traverse VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
-      .bind(id)
-      .bind(traverse.name)
-      .bind(traverse.source)
-      .bind(traverse.frames)
-      .bind(traverse.duration_s)
-      .bind(std::int64_t{traverse.frame_width_px})
-      .bind(std::int64_t{traverse.frame_height_px})
-      .bind(traverse.pose_source)
-      .bind(std::int64_t{traverse.surveyed ? 1 : 0})
-      .bind(static_cast<std::int64_t>(traverse.keyframes.size()))
-      .bind(std::int64_t{traverse.thumbnails.width})
-      .bind(std::int64_t{traverse.thumbnails.height})
-      .execute();
-
-  Statement row = database.prepare("INSERT INTO setting VALUES(?,?,?)");
-  for (const Setting& setting : settings_table()) {
-    const std::optional<std::string> value = text_of(traverse.settings, setting);
-    if (value) row.bind(id).bind(setting.name).bind(*value).execute();
-  }
-
-  Statement keyframe = database.prepare("INSERT INTO keyframe VALUES(?,?,?,?,?,?,?,?,?,?)");
-  Statement preview = database.prepare("INSERT INTO preview VALUES(?,?,?)");
-  for (std::size_t i = 0; i < traverse.keyframes.size(); ++i) {
-    const Keyframe& k = traverse.keyframes[i];
-    const auto position = static_cast<std::int64_t>(i);
-    keyframe.bind(id).bind(position).bind(k.frame).bind(k.time_s).bind(k.displacement).bind(k.distance_m);
-    keyframe.bind(k.pose ? std::optional(k.pose->x_m) : std::nullopt);
-    keyframe.bind(k.pose ? std::optional(k.pose->y_m) : std::nullopt);
-    keyframe.bind(k.pose ? std::optional(k.pose->heading_rad) : std::nullopt);
-    keyframe.bind(std::int64_t{k.after_gap ? 1 : 0}).execute();
-    if (!k.preview_jpeg.empty()) preview.bind(id).bind(position).bind(std::span(k.preview_jpeg)).execute();
-  }
-
-  optional_tables::write(database, id, traverse);
-  Statement thumbnails = database.prepare("INSERT INTO thumbnail_chunk VALUES(?,?,?,?)");
-  write_chunks(thumbnails, traverse.thumbnails.pixels, traverse.thumbnails.image_size(),
-               traverse.thumbnails.size(), [&](Statement& chunk) { chunk.bind(id); });
-  Statement descriptor = database.prepare("INSERT INTO descriptor VALUES(?,?,?,?,?)");
-  Statement chunk = database.prepare("INSERT INTO descriptor_chunk VALUES(?,?,?,?,?)");
-  for (std::size_t i = 0; i < traverse.descriptors.size(); ++i) {
-    const auto number = static_cast<std::int64_t>(i);
-    const Form form = form_of(traverse.descriptors[i]);
-    descriptor.bind(id).bind(number).bind(form.name).bind(form.width).bind(form.height).execute();
-    write_chunks(chunk, bytes_of(traverse.descriptors[i]), form.bytes, traverse.keyframes.size(),
-                 [&](Statement& of) { of.bind(id).bind(number); });
-  }
-}
-
-/// Throws if what takes so many bytes cannot be in the file.
-void check_room(const Database& database, const std::string& path, std::string_view what, std::size_t each,
-                std::size_t count) {
-  if (each > 0 && count > static_cast<std::size_t>(database.allowance()) / each)
-    damaged(path, fmt::format("{} are missing", what));
-}
-
-Traverse read_traverse(const Database& database, const std::string& path, std::int64_t id,
-                       const RouteReadOptions& options) {
-  Statement row = database.prepare(
-      "SELECT name, source, frames, duration_s, frame_width_px, frame_height_px, pose_source, surveyed, "
-      "keyframes, thumbnail_width, thumbnail_height FROM traverse WHERE id = ?");
-  if (!row.bind(id).step()) damaged(path, fmt::format("traverse {} is missing", id));
-  Traverse traverse;
-  traverse.name = row.text();
-  traverse.source = row.text();
-  traverse.frames = row.integer();
-  traverse.duration_s = row.real();
-  const std::int64_t frame_width_px = row.integer(), frame_height_px = row.integer();
-  traverse.pose_source = row.text();
-  traverse.surveyed = row.integer() != 0;
-  const std::int64_t keyframes = row.integer();
-  const std::int64_t width = row.integer(), height = row.integer();
-  constexpr std::int64_t kLargestSide = 1024;
-  if (width < 0 || height < 0 || width > kLargestSide || height > kLargestSide)
-    damaged(path, "the thumbnail size is no size");
-  if (frame_width_px < 0 || frame_height_px < 0 || frame_width_px > kLargestPicture ||
-      frame_height_px > kLargestPicture || traverse.frames < 0 || !std::isfinite(traverse.duration_s))
-    damaged(path, "a recording's size or length is none");
-  traverse.frame_width_px = static_cast<int>(frame_width_px);
-  traverse.frame_height_px = static_cast<int>(frame_height_px);
-
-  Statement settings = database.prepare("SELECT name, value FROM setting WHERE traverse = ? ORDER BY name");
-  traverse.settings = read_settings(settings.bind(id), path);
-
-  Statement keyframe = database.prepare(
-      "SELECT frame, time_s, displacement, distance_m, x_m, y_m, heading_rad, after_gap FROM keyframe "
-      "WHERE traverse = ? ORDER BY position");
-  keyframe.bind(id);
-  while (keyframe.step()) {
-    Keyframe k;
-    k.frame = keyframe.integer();
-    k.time_s = keyframe.real();
-    k.displacement = keyframe.real();
-    k.distance_m = keyframe.optional_real();
-    const std::optional<double> x_m = keyframe.optional_real();
-    const std::optional<double> y_m = keyframe.optional_real();
-    const std::optional<double> heading_rad = keyframe.optional_real();
-    k.after_gap = keyframe.integer() != 0;
-    if (x_m && y_m && heading_rad) k.pose = vo::Pose2{*x_m, *y_m, *heading_rad};
-    traverse.keyframes.push_back(std::move(k));
-  }
-  if (static_cast<std::int64_t>(traverse.keyframes.size()) != keyframes)
-    damaged(path, "keyframes are missing");
-  if (const std::string_view problem = problem_of(traverse.keyframes); !problem.empty())
-    damaged(path, problem);
-
-  if (options.previews) {
-    Statement preview = database.prepare("SELECT position, jpeg FROM preview WHERE traverse = ?");
-    preview.bind(id);
-    while (preview.step()) {
-      const std::int64_t position = preview.integer();
-      if (position < 0 || position >= keyframes) damaged(path, "a picture belongs to no keyframe");
-      const std::span<const std::uint8_t> jpeg = preview.blob();
-      traverse.keyframes[static_cast<std::size_t>(position)].preview_jpeg.assign(jpeg.begin(), jpeg.end());
-    }
-  }
-
-  traverse.places = optional_tables::read_places(database, path, id);
-  if (options.view_points)
-    traverse.view_points = optional_tables::read_points(database, path, id, traverse.keyframes.size());
-
-  if (options.previews && width > 0) {
-    check_room(database, path, "thumbnails", static_cast<std::size_t>(width * height),
-               traverse.keyframes.size());
-    traverse.thumbnails =
-        vo::make_image_stack(static_cast<int>(width), static_cast<int>(height), traverse.keyframes.size());
-    Statement chunk =
-        database.prepare("SELECT checksum, pixels FROM thumbnail_chunk WHERE traverse = ? ORDER BY first");
-    read_chunks(chunk.bind(id), traverse.thumbnails.pixels, path, "thumbnails");
-  }
-  if (!options.descriptors) return traverse;
-  Statement descriptor =
-      database.prepare("SELECT form, width, height FROM descriptor WHERE traverse = ? ORDER BY descriptor");
-  descriptor.bind(id);
-  while (descriptor.step()) {
-    const std::string form = descriptor.text();
-    const std::int64_t first_side = descriptor.integer(), second_side = descriptor.integer();
-    const std::optional<Descriptors> one = make_of_form(form, first_side, second_side, 0);
-    if (!one) damaged(path, "the size of its descriptors is no size");
-    check_room(database, path, "descriptors", form_of(*one).bytes, traverse.keyframes.size());
-    std::optional<Descriptors> made = make_of_form(form, first_side, second_side, traverse.keyframes.size());
-    Statement chunk = database.prepare(
-        "SELECT checksum, bytes FROM descriptor_chunk WHERE traverse = ? AND descriptor = ? ORDER BY first");
-    chunk.bind(id).bind(static_cast<std::int64_t>(traverse.descriptors.size()));
-    read_chunks(chunk, bytes_of(*made), path, "descriptors");
-    traverse.descriptors.push_back(std::move(*made));
-  }
-  return traverse;
-}
-
 /// The traverses have names of their own and the same descriptors.
 void check_alike(const Route& route, const std::string& path) {
   std::set<std::string_view> names;
@@ -301,11 +131,13 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
   }
 
   row_digests::check(database, shown, options.previews);
+  const std::optional<std::int64_t> digest = row_digests::of_all(database);
   Statement row = database.prepare(
       "SELECT software_version, unit, metric, traverses, latitude_deg, longitude_deg FROM route");
   if (!row.step()) damaged(shown, "the route's row is missing");
   Route route;
   route.software_version = row.text();
+  route.digest = digest;
   route.unit = row.real();
   route.metric = row.integer() != 0;
   const std::int64_t traverses = row.integer();
@@ -315,7 +147,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
       (route.origin && !(std::abs(*latitude_deg) <= 90 && std::abs(*longitude_deg) <= 360)))
     damaged(shown, "the route's unit or origin is none");
   Statement settings = database.prepare("SELECT name, value FROM route_setting ORDER BY name");
-  route.settings = read_settings(settings, shown);
+  route.settings = traverse_rows::read_settings(settings, shown);
   Statement learned = database.prepare("SELECT checksum, bytes FROM learned ORDER BY descriptor");
   while (learned.step()) {
     const std::int64_t expected = learned.integer();
@@ -324,7 +156,7 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
     route.learned.emplace_back(bytes.begin(), bytes.end());
   }
   for (std::int64_t id = 1; id <= traverses; ++id) {
-    route.traverses.push_back(read_traverse(database, shown, id, options));
+    route.traverses.push_back(traverse_rows::read(database, shown, id, options));
     if (options.descriptors && route.traverses.back().descriptors.size() != route.learned.size())
       damaged(shown, "descriptors are missing");
   }
@@ -335,6 +167,8 @@ Route read_route(const std::filesystem::path& path, const RouteReadOptions& opti
 void read_previews(const std::filesystem::path& path, Route& route, std::size_t traverse,
                    std::span<const std::size_t> keyframes) {
   const Database database(path, Database::Mode::kReadOnly, path.string());
+  if (row_digests::of_all(database) != route.digest)
+    throw vo::Error(path.string(), "has changed since it was read", "no build on it meanwhile");
   std::vector<Keyframe>& all = route.traverses.at(traverse).keyframes;
   for (const std::size_t keyframe : keyframes) {
     Statement preview = database.prepare("SELECT jpeg FROM preview WHERE traverse = ? AND position = ?");
@@ -388,7 +222,7 @@ void write_route(const std::filesystem::path& path, const Route& route) {
       learned.bind(static_cast<std::int64_t>(i)).bind(checksum(bytes)).bind(bytes).execute();
     }
     for (std::size_t i = 0; i < route.traverses.size(); ++i) {
-      write_traverse(database, static_cast<std::int64_t>(i) + 1, route.traverses[i]);
+      traverse_rows::write(database, static_cast<std::int64_t>(i) + 1, route.traverses[i]);
     }
     row_digests::write(database);
     database.run("COMMIT");

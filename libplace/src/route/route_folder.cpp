@@ -6,12 +6,12 @@
 #include "route/route_folder_names.hpp"
 
 #include <system_error>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
 #include <vo/io/atomic_file.hpp>
+#include <vo/io/csv.hpp>
 #include <vo/io/partial_path.hpp>
 
 namespace place {
@@ -24,13 +24,6 @@ using route_folder::kFormat;
 using route_folder::learned_file;
 using route_folder::traverse_folder;
 
-/// RFC 4180: in quotes, those in it doubled.
-std::string csv_cell(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) result.append(c == '"' ? 2 : 1, c);
-  return result + '"';
-}
-
 std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : std::string();  // the shortest that reads back as the same
 }
@@ -39,7 +32,7 @@ std::string settings_rows(std::size_t number, const Settings& settings) {
   std::string rows;
   for (const Setting& setting : settings_table()) {
     if (const auto value = text_of(settings, setting))
-      rows += fmt::format("{},{},{}\n", number, setting.name, csv_cell(*value));
+      rows += fmt::format("{},{},{}\n", number, setting.name, vo::csv_cell(*value));
   }
   return rows;
 }
@@ -92,13 +85,13 @@ void write_places(const fs::path& folder, const Traverse& traverse) {
   if (traverse.places.empty()) return;
   std::string rows = "frame,distance_m,name\n";
   for (const NamedPlace& place : traverse.places)
-    rows += fmt::format("{},{},{}\n", place.frame, number(place.distance_m), csv_cell(place.name));
+    rows += fmt::format("{},{},{}\n", place.frame, number(place.distance_m), vo::csv_cell(place.name));
   vo::write_file(folder / "places.csv", rows);
 }
 
 void write_all(const fs::path& folder, const Route& route) {
   std::string values = fmt::format("name,value\nformat,{}\nwritten_by,{}\nunit,{}\nmetric,{}\n", kFormat,
-                                   csv_cell(kVersion), number(route.unit), route.metric ? 1 : 0);
+                                   vo::csv_cell(kVersion), number(route.unit), route.metric ? 1 : 0);
   if (route.origin)
     values += fmt::format("latitude_deg,{}\nlongitude_deg,{}\n", number(route.origin->latitude_deg),
                           number(route.origin->longitude_deg));
@@ -112,9 +105,9 @@ void write_all(const fs::path& folder, const Route& route) {
     const Traverse& traverse = route.traverses[t];
     settings += settings_rows(t + 1, traverse.settings);
     traverses +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", t + 1, csv_cell(traverse.name),
-                    csv_cell(traverse.source), traverse.frames, number(traverse.duration_s),
-                    traverse.frame_width_px, traverse.frame_height_px, csv_cell(traverse.pose_source),
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", t + 1, vo::csv_cell(traverse.name),
+                    vo::csv_cell(traverse.source), traverse.frames, number(traverse.duration_s),
+                    traverse.frame_width_px, traverse.frame_height_px, vo::csv_cell(traverse.pose_source),
                     traverse.surveyed ? 1 : 0, traverse.thumbnails.width, traverse.thumbnails.height);
     write_traverse(traverse_folder(folder, t), traverse);
     write_places(traverse_folder(folder, t), traverse);

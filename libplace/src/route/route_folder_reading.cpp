@@ -5,6 +5,7 @@
 #include "route/keyframe_check.hpp"
 #include "route/route_folder_names.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -133,6 +134,7 @@ void read_places(const fs::path& file, Traverse& traverse) {
     if (names[i].empty()) throw vo::Error(table.where(i), "has no name", "a name for each place");
     traverse.places.push_back({names[i], frames[i], distances[i]});
   }
+  std::ranges::stable_sort(traverse.places, {}, &NamedPlace::frame);
 }
 
 std::vector<Settings> read_settings(const fs::path& folder, std::size_t traverses) {
@@ -174,6 +176,10 @@ void read_values(const fs::path& folder, Route& route) {
   route.metric = *value("metric", true) != 0;
   const auto latitude = value("latitude_deg", false), longitude = value("longitude_deg", false);
   if (latitude && longitude) route.origin = GeographicOrigin{*latitude, *longitude};
+  const bool on_earth = !route.origin || (std::abs(*latitude) <= 90 && std::abs(*longitude) <= 360);
+  if (!(route.unit >= 0) || !on_earth)
+    throw vo::Error((folder / "route.csv").string(), "has a unit or an origin that is none",
+                    "unit from 0, latitude_deg within 90, longitude_deg within 360");
 }
 
 Traverse read_traverse(const fs::path& folder, const CsvTable& table, std::size_t row,

@@ -52,7 +52,14 @@ std::int64_t digest_of(const Database& database, const Table& table) {
   return std::bit_cast<std::int64_t>(digest);
 }
 
+constexpr std::string_view kTable = "row_digest";
+
 }  // namespace
+
+std::optional<std::int64_t> of_all(const Database& database) {
+  if (!exists(database, kTable)) return std::nullopt;
+  return digest_of(database, {kTable, "SELECT * FROM row_digest ORDER BY name"});
+}
 
 void write(const Database& database) {
   database.run("CREATE TABLE row_digest(name TEXT PRIMARY KEY, digest INTEGER NOT NULL) WITHOUT ROWID");
@@ -66,7 +73,7 @@ void write(const Database& database) {
 }
 
 void check(const Database& database, const std::string& path, bool previews) {
-  if (!exists(database, "row_digest")) return;
+  if (!exists(database, kTable)) return;
   for (const Table& table : kTables) {
     if (table.pictures && !previews) continue;
     std::optional<std::int64_t> stored;

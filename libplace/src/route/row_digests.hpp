@@ -2,6 +2,8 @@
 
 #include "route/sqlite.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 /// Digests of the rows of a route database, so that a flipped bit in any of them is found and named instead
@@ -16,5 +18,8 @@ void write(const sqlite::Database& database);
 /// Throws `vo::Error` naming `path` and the table whose rows do not match their digest. `previews`: whether
 /// the pictures are read, and therefore checked, too. O(rows).
 void check(const sqlite::Database& database, const std::string& path, bool previews);
+
+/// One digest of all of them, which tells a route from another one at the same path; none without digests.
+std::optional<std::int64_t> of_all(const sqlite::Database& database);
 
 }  // namespace place::row_digests

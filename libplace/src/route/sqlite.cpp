@@ -182,7 +182,8 @@ void Database::distrust(const std::filesystem::path& file) {
   constexpr std::int64_t kStepsPerByte = 16, kStepsOfAny = 100'000, kSchema = 1 << 16,
                          kLongest = 1'000'000'000;  // SQLite's own limit
   constexpr int kBetween = 1000;                    // steps from one look at the limit to the next
-  reading_ = std::make_unique<Reading>(Reading{2 * bytes + kSchema, kStepsPerByte * bytes + kStepsOfAny});
+  whole_ = {2 * bytes + kSchema, kStepsPerByte * bytes + kStepsOfAny};
+  reading_ = std::make_unique<Reading>(whole_);
   sqlite3_progress_handler(
       database_.get(), kBetween,
       [](void* reading) {

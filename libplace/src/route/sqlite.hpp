@@ -77,6 +77,10 @@ class Database {
   /// Bytes that may still be read, of rows, texts and blobs: twice what the file and its changes hold, since
   /// pages that point at each other can make a short file give out any number of them. Reading more throws.
   [[nodiscard]] std::int64_t allowance() const { return reading_ ? reading_->allowance : 0; }
+  /// Begins the limits on reading anew, where the same rows are read again and again.
+  void renew_limits() const {
+    if (reading_) *reading_ = whole_;
+  }
 
  private:
   struct Close {
@@ -97,6 +101,7 @@ class Database {
     std::int64_t steps = 0;      ///< of SQLite's machine
   };
   std::string path_;
+  Reading whole_;                     ///< the limits as they were at first
   std::unique_ptr<Reading> reading_;  ///< none while writing; outlives the connection
   std::unique_ptr<Copy> copy_;        ///< of the file and its changes; outlives the connection
   std::unique_ptr<sqlite3, Close> database_;

@@ -2,6 +2,7 @@
 
 #include "place/route/route_database.hpp"
 #include "route/descriptor_rows.hpp"
+#include "route/row_digests.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -39,6 +40,7 @@ struct StoredDescriptors::State {
   /// Calls `take` with the chunks of [begin, end): the first keyframe of each, and its bytes.
   template <typename Take>
   void for_each_chunk(std::size_t kind, std::size_t begin, std::size_t end, const Take& take) {
+    database.renew_limits();  // the size of each chunk is checked
     sqlite::Statement chunk = database.prepare(
         "SELECT first, checksum, bytes FROM descriptor_chunk WHERE traverse = ? AND descriptor = ? AND first "
         ">= ? AND first < ? ORDER BY first");
@@ -100,6 +102,10 @@ std::size_t StoredDescriptors::kinds() const {
 
 std::size_t StoredDescriptors::bytes_of_each(std::size_t kind) const {
   return state_->kinds.at(kind).bytes;
+}
+
+std::optional<std::int64_t> StoredDescriptors::digest() const {
+  return row_digests::of_all(state_->database);
 }
 
 std::uint64_t StoredDescriptors::bytes_read() const {

@@ -112,8 +112,7 @@ RelativeScale scale_to(const Traverse& reference, const SampledWalk& sampled, co
                                                .prior_queries = traits.prior_queries};
   if (options.scale_costs) return relative_scale(options.scale_costs(query), scale, enhancement);
   Descriptors compared = descriptor.comparable(reference.descriptors.front());
-  constexpr std::size_t kLargest = 50'000;  // keyframes; with more, only likely ones are compared
-  if (count_of(compared) > kLargest) compared = select(compared, candidates(query, compared));
+  if (count_of(compared) > kMostForScale) compared = select(compared, candidates(query, compared));
   return relative_scale(cost_matrix(*descriptor_costs(query, compared, traits, options.max_shift_px)), scale,
                         enhancement);
 }

@@ -88,7 +88,8 @@ class Follower {
   Position push(const vo::Frame& frame);
 
   /// After the last frame: the surer answers that no later one has brought, of the frames described within
-  /// the lag, oldest first. None without a lag. O(keyframes * descriptions in the lag, squared).
+  /// the lag, oldest first. None without a lag. O(keyframes * n^2) for n descriptions
+  /// in the lag.
   [[nodiscard]] std::vector<EarlierPlace> finish() const;
 
   /// All settings in use, the route's and those given.

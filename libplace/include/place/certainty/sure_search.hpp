@@ -46,8 +46,8 @@ struct SureMatches {
 /// gives its place (`path_scores`), calibrated and limited as above.
 ///
 /// A walk with fewer than kFewestScores matches, or whose reverse has fewer, has only the search's own
-/// probabilities, if it gives any (`SearchMethod::scores_are_log_odds`). Cost: twice the search, and for
-/// others than the path search twice that as well.
+/// probabilities, if it gives any (`SearchMethod::scores_are_log_odds`). Cost: two searches; for a search
+/// other than `path`, two path searches more.
 SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
                           const SearchOptions& options);
 

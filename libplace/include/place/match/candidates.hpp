@@ -20,6 +20,10 @@ struct CandidateOptions {
   int margin = 64;      ///< keyframes kept on either side of a stretch; at least half a line
 };
 
+/// With more keyframes than this, a walk is brought to another's scale by its candidates alone
+/// (`sample_walk`).
+inline constexpr std::size_t kMostForScale = 50'000;
+
 /// The references that a walk may be on, for a reference too large to compare with as a whole: keyframe
 /// indices, increasing, in stretches.
 ///
@@ -39,7 +43,8 @@ std::vector<std::size_t> candidates(const vo::ImageStack& queries, const vo::Ima
 /// each part projected by itself, and then the search among all projections.
 class CandidateFinder {
  public:
-  /// `sample`: the references at `candidate_sample`, in order.
+  /// `sample`: the references at `candidate_sample`, in order. Throws `std::invalid_argument` for options out
+  /// of range. O(sample * pooled pixels^2 + pooled pixels^3).
   CandidateFinder(const vo::ImageStack& sample, const CandidateOptions& options);
   ~CandidateFinder();
   CandidateFinder(CandidateFinder&&) noexcept;
@@ -47,9 +52,9 @@ class CandidateFinder {
 
   /// Values that an image is reduced to.
   [[nodiscard]] std::size_t dimensions() const;
-  /// The images' projections, one after the other.
+  /// The images' projections, `dimensions()` values each, one after the other. O(images * pixels).
   [[nodiscard]] std::vector<float> project(const vo::ImageStack& images) const;
-  /// The candidates among `references`, the projections of all.
+  /// The candidates among `references`, the projections of all, in order. Cost as for `candidates`.
   [[nodiscard]] std::vector<std::size_t> find(const vo::ImageStack& queries, std::vector<float> references,
                                               const CandidateOptions& options) const;
 

@@ -47,8 +47,9 @@ class StoredSearch final : public TraverseSearch {
 };
 
 /// What members but the first do: their part of every search, until it is finished. Returns the bytes of
-/// descriptors read. `callback`: receives this member's parts of the matrices, and
-/// how many keyframes the traverse has. Throws what fails; the team then tells the others.
+/// descriptors read. `callback`: receives this member's parts of the matrices, and how many keyframes the
+/// traverse has. Throws what fails; the caller must then end the team, or the other members wait for this
+/// one.
 std::uint64_t serve_shards(
     const std::filesystem::path& route, Team& team,
     const std::function<void(const SearchPart& part, std::size_t keyframes)>& callback = {});

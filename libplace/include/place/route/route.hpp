@@ -69,6 +69,7 @@ struct Route {
   std::vector<Traverse> traverses;
   std::optional<GeographicOrigin> origin;  ///< if the surveyed poses are geographic
   std::string software_version;            ///< of the program that wrote it
+  std::optional<std::int64_t> digest;      ///< of the database that it was read from; none: made in memory
 };
 
 /// The thumbnails of a traverse's keyframes, wherever they are stored; null if it has none.

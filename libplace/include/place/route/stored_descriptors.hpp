@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace place {
 
 /// The descriptors of a traverse in a route database, read when they are needed, for routes larger than
-/// memory and for processes that need a part. The file stays open.
+/// memory and for processes that need a part. The file stays open. One thread at a time, also for `const`
+/// functions.
 class StoredDescriptors {
  public:
   /// `traverse`: its index on the route. Throws `vo::Error` as `read_route` does.
@@ -31,6 +33,9 @@ class StoredDescriptors {
   [[nodiscard]] Descriptors read(std::size_t kind, std::size_t begin, std::size_t end) const;
   /// Those of some keyframes, which increase.
   [[nodiscard]] Descriptors read(std::size_t kind, std::span<const std::size_t> keyframes) const;
+
+  /// `Route::digest` of the route in the file.
+  [[nodiscard]] std::optional<std::int64_t> digest() const;
 
   /// Bytes of descriptors read from the file so far.
   [[nodiscard]] std::uint64_t bytes_read() const;

@@ -57,6 +57,18 @@ TEST(NearestPlace, GoesByKeyframesWithoutASurvey) {
   EXPECT_FALSE(matches[1].nearest_place_m);
 }
 
+TEST(NearestPlace, GoesByKeyframesWhereAPlaceIsNotSurveyed) {
+  place::Route route = twenty_metres();
+  for (const std::size_t k : {7U, 8U, 9U})
+    route.traverses[0].keyframes[k].distance_m.reset();  // about the door
+  std::vector<Match> matches{at(5, route), at(6, route)};
+  place::name_places(matches, route);
+  EXPECT_EQ(matches[0].nearest_place, "bench, \"old\"");  // two and a half keyframes, the door three
+  EXPECT_DOUBLE_EQ(*matches[0].nearest_place_m, -5);
+  EXPECT_EQ(matches[1].nearest_place, "door");  // two keyframes, fewer than the bench's 7 m
+  EXPECT_FALSE(matches[1].nearest_place_m);
+}
+
 TEST(NearestPlace, LeavesMatchesOfARouteWithoutNamesAlone) {
   place::Route route = twenty_metres();
   route.traverses[0].places.clear();

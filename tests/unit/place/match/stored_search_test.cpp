@@ -208,4 +208,19 @@ TEST_F(StoredSearchTest, SaysWhenTheCostsDoNotFitTheMemory) {
                     "--memory 200M: is too little");
 }
 
+TEST_F(StoredSearchTest, RefusesAFileThatIsNoLongerTheRouteThatWasRead) {
+  make("blocks");
+  const place::Route light = place::read_route(path_, {.descriptors = false});
+  place::Route other = route_;
+  other.traverses.front().name = "another";
+  place::write_route(path_, other);
+  place::Alone alone;
+  place::StoredSearch search(path_, alone);
+  search.prepare(resolved(), light);
+  place::RouteMatchingOptions with_search = options();
+  with_search.traverse_search = &search;
+  EXPECT_THROW_WITH(place::match_on_route(light, time_s_, sampled_, with_search), vo::Error,
+                    "has changed since it was read");
+}
+
 }  // namespace

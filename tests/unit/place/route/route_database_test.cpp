@@ -41,6 +41,26 @@ place::sqlite::Database changed_by_hand(const fs::path& route) {
   return database;
 }
 
+/// What reading says of a route that was changed by hand; empty if nothing.
+std::string said_of(const fs::path& file, const place::Route& route, const std::string& sql) {
+  place::write_route(file, route);
+  changed_by_hand(file).run(sql);
+  try {
+    static_cast<void>(place::read_route(file));
+  } catch (const vo::Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// A route of so many keyframes.
+place::Route small_route(std::size_t keyframes) {
+  place::Route route = example_route();
+  route.traverses.resize(1);
+  route.traverses[0] = example_traverse("a", keyframes, 1);
+  return route;
+}
+
 TEST(RouteDatabase, RoundTripsEverything) {
   const TemporaryFolder folder;
   const place::Route route = example_route();
@@ -225,17 +245,7 @@ TEST(RouteDatabase, FindsAFlippedBitOfADescriptor) {
 
 TEST(RouteDatabase, FindsThumbnailsWithoutAKeyframeAndCountsThatAreNotTrue) {
   const TemporaryFolder folder;
-  const auto damaged_by = [&](const char* sql) {
-    place::write_route(folder / "r.db", example_route());
-    changed_by_hand(folder / "r.db").run(sql);
-    std::string said;
-    try {
-      static_cast<void>(place::read_route(folder / "r.db"));
-    } catch (const vo::Error& error) {
-      said = error.what();
-    }
-    return said;
-  };
+  const auto damaged_by = [&](const char* sql) { return said_of(folder / "r.db", example_route(), sql); };
   EXPECT_THAT(damaged_by("DELETE FROM keyframe WHERE traverse = 1 AND position = 0;"
                          "UPDATE traverse SET keyframes = keyframes - 1 WHERE id = 1"),
               testing::HasSubstr("r.db: is damaged: there are more thumbnails than keyframes"));
@@ -251,14 +261,7 @@ TEST(RouteDatabase, HoldsAFileMadeToDeceiveToItsSize) {
     place::Route route;
     route.traverses.push_back(example_traverse("day", 4, 1));
     route.learned.resize(3);
-    place::write_route(folder / "r.db", route);
-    changed_by_hand(folder / "r.db").run(sql);
-    std::string said;
-    try {
-      static_cast<void>(place::read_route(folder / "r.db"));
-    } catch (const vo::Error& error) {
-      said = error.what();
-    }
+    const std::string said = said_of(folder / "r.db", route, sql);
     EXPECT_THAT(said, testing::HasSubstr("r.db: is damaged")) << sql;
     return said;
   };
@@ -309,9 +312,7 @@ TEST(RouteDatabase, RefusesKeyframesAndPlacesThatCannotBe) {
 
 TEST(RouteDatabase, AnyDamageIsAnErrorThatNamesTheFileOrDoesNoHarm) {
   const TemporaryFolder folder;
-  place::Route route = example_route();
-  route.traverses.resize(1);
-  route.traverses[0] = example_traverse("a", 5, 1);
+  const place::Route route = small_route(5);
   place::write_route(folder / "r.db", route);
   const std::string bytes = read_file(folder / "r.db");
   std::size_t errors = 0;
@@ -340,9 +341,7 @@ TEST(RouteDatabase, AnyDamageIsAnErrorThatNamesTheFileOrDoesNoHarm) {
 /// Every bit of the bytes that hold the rows of keyframes and settings, where SQLite has no checks.
 TEST(RouteDatabase, AFlippedBitInARowIsNamed) {
   const TemporaryFolder folder;
-  place::Route route = example_route();
-  route.traverses.resize(1);
-  route.traverses[0] = example_traverse("a", 3, 1);
+  const place::Route route = small_route(3);
   place::write_route(folder / "r.db", route);
   const std::string bytes = read_file(folder / "r.db");
   const double time_s = route.traverses[0].keyframes[1].time_s;

@@ -66,7 +66,7 @@ TEST(RouteFolder, OthersReadThePartsTheyWant) {
   EXPECT_EQ(columns.values[127], (2 * 127) % 255 - 127.0F);                          // as the example is made
   EXPECT_EQ(read_file(night / "preview-000028.jpg"), std::string("\0\xff\x04", 3));  // the fifth keyframe's
   EXPECT_THAT(read_file(folder / "out" / "traverses.csv"),
-              HasSubstr("2,\"by night\",\"by night's \"\"walk\"\" ü.mp4\""));
+              HasSubstr("2,by night,\"by night's \"\"walk\"\" ü.mp4\""));
 }
 
 TEST(RouteFolder, LeavesNothingWhereItCannotWrite) {

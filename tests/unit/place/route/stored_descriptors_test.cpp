@@ -116,4 +116,24 @@ TEST_F(StoredDescriptorsTest, LeaveARouteReadWithoutThemAsItIsOtherwise) {
   EXPECT_TRUE(light.traverses[0].keyframes[12].preview_jpeg.empty());  // was not asked for
 }
 
+TEST_F(StoredDescriptorsTest, MayBeReadAgainAndAgain) {
+  const StoredDescriptors stored(path_, 0);
+  const std::vector<double> once = values_of(stored.read(0, 0, stored.size()));
+  // Well beyond what one reading of the whole file is allowed.
+  const std::uint64_t enough = 4 * std::filesystem::file_size(path_) + (1U << 20U);
+  while (stored.bytes_read() < enough) ASSERT_EQ(values_of(stored.read(0, 0, stored.size())), once);
+}
+
+TEST_F(StoredDescriptorsTest, TellOneRouteFromAnother) {
+  const auto digest = place::read_route(path_).digest;
+  ASSERT_TRUE(digest);
+  EXPECT_EQ(StoredDescriptors(path_, 0).digest(), digest);
+  place::Route other = route_;
+  other.traverses[0].keyframes[0].displacement += 0.5;
+  place::write_route(path_, other);
+  EXPECT_NE(StoredDescriptors(path_, 0).digest(), digest);
+  place::write_route(path_, route_);
+  EXPECT_EQ(place::read_route(path_).digest, digest);
+}
+
 }  // namespace
