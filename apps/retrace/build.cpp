@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -58,7 +59,11 @@ void check_name_is_free(const place::Route& route, const BuildOptions& options) 
 void check_report(const BuildOptions& options) {
   check_writable(options.report);
   const std::filesystem::path report = options.report;
-  if (report.lexically_normal() == std::filesystem::path(options.output).lexically_normal())
+  std::error_code ignored;
+  const auto real = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored);
+  };
+  if (real(report) == real(options.output))
     throw vo::Error(options.report, "is the route itself", "another file for --report");
   if (std::filesystem::exists(report) && !options.common.force)
     throw vo::Error(options.report, "already exists", "another file, or --force to overwrite");

@@ -79,7 +79,9 @@ void follow(const FollowOptions& options) {
   if (is_live(options.walk)) newest.emplace(std::move(source));
 
   const EndableReading endable;
-  FollowLines lines(options.output);
+  std::optional<StagedFiles> staged;
+  if (!options.output.empty()) staged.emplace(options.output);
+  FollowLines lines(staged ? staged->path() : std::filesystem::path());
   FollowRecord record;
   FollowMatches matches(route);
   FollowRun run{.walk = options.walk, .route = options.route, .lag_s = options.lag_s};
@@ -115,12 +117,11 @@ void follow(const FollowOptions& options) {
     run.warnings = opened.warnings();
     run.start_utc_s = opened.start_utc_s();
   }
-  if (!options.output.empty()) {
+  if (staged) {
     matches.finish(follower.finish());
-    StagedFiles staged(options.output);
-    write_follow_files(staged.path(), run, route, follower.settings(), matches.matches());
-    vo::write_file(staged.path() / "report.html", record.page(route, options.walk));
-    staged.commit(kStaleFiles);
+    write_follow_files(staged->path(), run, route, follower.settings(), matches.matches());
+    vo::write_file(staged->path() / "report.html", record.page(route, options.walk));
+    staged->commit(kStaleFiles);
   }
   for (const std::string& warning : run.warnings) spdlog::warn("{}", warning);
   if (!trouble.empty())

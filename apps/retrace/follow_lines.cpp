@@ -65,8 +65,8 @@ std::string event_line(const place::FollowEvent& event) {
   return json_text(json);
 }
 
-FollowLines::FollowLines(const std::string& folder) : folder_(folder) {
-  if (!folder_.empty()) file_.open(part());
+FollowLines::FollowLines(const std::filesystem::path& folder) : folder_(folder) {
+  if (!folder_.empty()) file_.open(folder_ / "follow.jsonl");
 }
 
 void FollowLines::write(const std::string& line) {
@@ -78,8 +78,7 @@ void FollowLines::write(const std::string& line) {
 void FollowLines::finish() {
   if (folder_.empty()) return;
   file_.close();
-  if (!file_) throw vo::Error(part().string(), "cannot be written", "a disk with room");
-  std::filesystem::rename(part(), folder_ / "follow.jsonl");
+  if (!file_) throw vo::Error((folder_ / "follow.jsonl").string(), "cannot be written", "a disk with room");
 }
 
 }  // namespace retrace

@@ -16,19 +16,17 @@ std::string follow_line(const place::Position& position);
 std::string event_line(const place::FollowEvent& event);
 
 /// The lines of a walk: each goes to standard output as soon as it is known, and into `follow.jsonl` in a
-/// folder, which has its name once it is complete.
+/// folder, such as one of `StagedFiles`.
 class FollowLines {
  public:
   /// `folder`: empty for none.
-  explicit FollowLines(const std::string& folder);
+  explicit FollowLines(const std::filesystem::path& folder);
 
   void write(const std::string& line);
   /// Throws `vo::Error` naming the file if not all of it could be written.
   void finish();
 
  private:
-  [[nodiscard]] std::filesystem::path part() const { return folder_ / "follow.jsonl.part"; }
-
   std::filesystem::path folder_;
   std::ofstream file_;
 };

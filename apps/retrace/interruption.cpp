@@ -1,11 +1,13 @@
 #include "interruption.hpp"
 
+#include "launched_team.hpp"
+
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <cstdlib>
 #include <fcntl.h>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -44,9 +46,13 @@ extern "C" void pass_on_signal(int signal) {
 }  // namespace
 
 void end_on_signals() {
-  one_of_many = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
+  one_of_many = is_launched();
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return;  // then they end the program at once
-  std::thread(end_program).detach();
+  try {
+    std::thread(end_program).detach();
+  } catch (const std::system_error&) {
+    return;  // no thread to be had: signals end the program at once
+  }
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);

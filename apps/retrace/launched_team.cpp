@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -89,12 +90,18 @@ std::vector<place::Team::Message> LaunchedTeam::gather(std::span<const std::uint
       starts[i] = total;
       total += counts[i];
     }
-    together.resize(mine ? static_cast<std::size_t>(total) : 0);
-    const auto from = std::min(message.size(), static_cast<std::size_t>(done));
-    calls_.gather_bytes(message.data() + from, counts[rank()], together.data(), counts.data(), starts.data(),
-                        to_everyone);
-    for (std::size_t i = 0; i < size() && mine; ++i)
-      all[i].insert(all[i].end(), together.begin() + starts[i], together.begin() + starts[i] + counts[i]);
+    try {
+      together.resize(mine ? static_cast<std::size_t>(total) : 0);
+      const auto from = std::min(message.size(), static_cast<std::size_t>(done));
+      calls_.gather_bytes(message.data() + from, counts[rank()], together.data(), counts.data(),
+                          starts.data(), to_everyone);
+      for (std::size_t i = 0; i < size() && mine; ++i)
+        all[i].insert(all[i].end(), together.begin() + starts[i], together.begin() + starts[i] + counts[i]);
+    } catch (const std::bad_alloc&) {  // the others are in the midst of an exchange, and cannot be told
+      fmt::print(stderr, "retrace: process {}: out of memory\n", rank());
+      calls_.abort();
+      throw;
+    }
   }
   bytes_sent_ += message.size() * (to_everyone ? size() - 1 : (rank() == 0 ? 0 : 1));
   if (!mine) all.clear();
@@ -106,7 +113,7 @@ bool is_launched() {
 }
 
 std::unique_ptr<LaunchedTeam> launched_team() {
-  if (number_of("OMPI_COMM_WORLD_SIZE") < 1) return nullptr;
+  if (!is_launched()) return nullptr;
 #ifdef RETRACE_MPI_MODULE
   // It is beside the module that this is in. Open MPI's plugins expect its symbols to be global.
   Dl_info self{};
@@ -117,7 +124,6 @@ std::unique_ptr<LaunchedTeam> launched_team() {
   if (begin == nullptr) throw vo::Error("mpirun", ::dlerror(), "the module of this build beside the program");
   return std::make_unique<LaunchedTeam>(*reinterpret_cast<BeginMpi*>(begin)());
 #else
-  if (!is_launched()) return nullptr;
   throw vo::Error("mpirun", "started several processes, and this build has no MPI",
                   "one process, or a build where CMake finds libopenmpi-dev");
 #endif

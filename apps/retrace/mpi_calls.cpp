@@ -22,11 +22,15 @@ void end() {
   MPI_Finalize();
 }
 
+void abort_all() {
+  MPI_Abort(MPI_COMM_WORLD, 1);
+}
+
 }  // namespace
 
 // An MPI call that fails ends all processes, which is MPI's default.
 const MpiCalls* retrace_mpi_begin() {
-  static MpiCalls calls{0, 0, gather_numbers, gather_bytes, end};
+  static MpiCalls calls{0, 0, gather_numbers, gather_bytes, end, abort_all};
   MPI_Init(nullptr, nullptr);
   MPI_Comm_size(MPI_COMM_WORLD, &calls.size);
   MPI_Comm_rank(MPI_COMM_WORLD, &calls.rank);

@@ -15,6 +15,8 @@ struct MpiCalls {
   void (*gather_bytes)(const void* mine, int count, void* all, const int* counts, const int* starts,
                        bool to_everyone);
   void (*end)();
+  /// Ends all processes at once, where they cannot be told in order.
+  void (*abort)();
 };
 
 /// Starts MPI. The name of the function in the module: `retrace_mpi_begin`.

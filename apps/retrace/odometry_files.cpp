@@ -233,8 +233,9 @@ ordered_json summary(const vo::Walk& walk, const vo::WalkMotion& walked, double 
 }  // namespace
 
 const std::vector<std::string> kOdometryFiles{
-    "frames.csv",  "steps.csv",   "activity.csv",        "trajectory.tum",      "summary.json",
-    "report.html", "config.toml", "visual_odometry.csv", "visual_odometry.tum", kRunDataFile};
+    "frames.csv",         "steps.csv",   "activity.csv", "trajectory.tum", "trajectory_odometry.tum",
+    "summary.json",       "report.html", "config.toml",  kRunDataFile,     "visual_odometry.csv",
+    "visual_odometry.tum"};
 
 WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, const vo::WalkMotion& walked,
                                const place::Settings& settings, const OdometryExtras& extras) {
@@ -263,7 +264,9 @@ WrittenOdometry write_odometry(const fs::path& folder, const vo::Walk& walk, con
   vo::write_file(files / kRunDataFile,
                  ordered_json{{"alignment", alignment_data(walk, walked.visual, extras.visual)}}.dump());
   vo::write_file(files / "report.html", odometry_report(files));
-  staged.commit(kOdometryFiles);
+  std::vector<std::string> stale{"odometry_metrics.json"};  // of other steps
+  stale.insert(stale.end(), kOdometryFiles.begin(), kOdometryFiles.end());
+  staged.commit(stale);
   return {json["distance"].get<double>(), json["unit"].get<std::string>(), std::move(text)};
 }
 

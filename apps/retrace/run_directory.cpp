@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <deque>
+#include <ranges>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -34,13 +35,17 @@ void check_writable_folder(const fs::path& folder) {
 void prepare_run_directory(const fs::path& folder, const std::vector<std::string>& files, bool force) {
   static std::deque<vo::PartialPath> created;  // those that stay empty go when the program ends
   std::error_code error;
-  const bool is_new = fs::create_directories(folder, error);
+  std::vector<fs::path> missing;  // the innermost first
+  for (fs::path at = folder.has_filename() ? folder : folder.parent_path();
+       !at.empty() && !fs::exists(at, error); at = at.parent_path())
+    missing.push_back(at);
+  for (const fs::path& made : missing | std::views::reverse)
+    created.emplace_back(made, vo::Removal::kIfEmpty);
+  fs::create_directories(folder, error);
   if (error && !fs::exists(folder)) {
     throw vo::Error(folder.string(), fmt::format("cannot be created: {}", error.message()),
                     "a writable folder");
   }
-  if (is_new)
-    created.emplace_back(folder.has_filename() ? folder : folder.parent_path(), vo::Removal::kIfEmpty);
   check_writable_folder(folder);
   if (force) return;
   for (const std::string& file : files) {
@@ -61,11 +66,7 @@ StagedFiles::StagedFiles(fs::path folder)
 }
 
 void StagedFiles::commit(const std::vector<std::string>& stale) {
-  std::error_code ignored;
-  for (const std::string& name : stale) {
-    if (!fs::exists(staged_.path() / name, ignored)) fs::remove(folder_ / name, ignored);
-  }
-  staged_.release_into(folder_);
+  staged_.release_into(folder_, stale);
 }
 
 void check_writable(const fs::path& file) {

@@ -15,8 +15,9 @@ namespace retrace {
 void prepare_run_directory(const std::filesystem::path& folder, const std::vector<std::string>& files,
                            bool force);
 
-/// The files of a run, all of them or none: they are written to a hidden folder within the run's, and moved
-/// from there when all are whole. Without `commit` they are removed, and what was in the run's folder stays.
+/// The files of a run, all of them or none (a kill while they are moved leaves whole files, some of them
+/// new): they are written to a hidden folder within the run's, and moved from there when all are whole.
+/// Without `commit` they are removed, and what was in the run's folder stays.
 class StagedFiles {
  public:
   /// Throws `vo::Error` naming the folder if nothing can be written to it.

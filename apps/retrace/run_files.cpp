@@ -291,6 +291,11 @@ WrittenRun localise_into(const fs::path& folder, const place::Route& route, cons
   vo::write_file(staged.path() / "report.html", run_report(staged.path(), data));
   write_matrices(staged.path(), keeper.matrices(), route, run.matches, whole_matrices);
   std::vector<std::string> stale{"metrics.json", "pr.csv", "errors.csv"};  // of other matches
+  for (std::size_t i = 0; i == 0 || fs::exists(folder / fmt::format("cost_matrix-{}.png", i + 1)); ++i) {
+    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
+    for (const char* name : {"cost_matrix{}.png", "D{}.csv", "DD{}.csv"})
+      stale.push_back(fmt::format(fmt::runtime(name), suffix));
+  }
   stale.insert(stale.end(), kRunFiles.begin(), kRunFiles.end());
   stale.insert(stale.end(), kTrajectoryFiles.begin(), kTrajectoryFiles.end());
   staged.commit(stale);

@@ -83,11 +83,12 @@ place::SweepResults resume_sweep(const SweepOptions& options, const std::vector<
   const std::string description = description_of(options, axes);
   prepare_run_directory(folder, {}, true);
   const fs::path mark = folder / "sweep.toml";
+  const bool is_marked = fs::exists(mark);  // before it is read: another part may write it meanwhile
   place::SweepResults done;
   if (!options.common.force) {
     std::ifstream file(mark);
     const std::string before{std::istreambuf_iterator<char>(file), {}};
-    if (fs::exists(mark) ? before != description : fs::exists(folder / "sweep.csv")) {
+    if (is_marked ? before != description : fs::exists(folder / "sweep.csv")) {
       throw vo::Error(folder.string(), "holds another sweep", "another folder, or --force to begin anew");
     }
     done = place::read_sweep(folder / "sweep.csv", axes);
@@ -98,7 +99,7 @@ place::SweepResults resume_sweep(const SweepOptions& options, const std::vector<
     remove_parts(options);
   }
   if (options.cell.empty() && !options.merge) write_sweep_csv(options, axes, done);
-  vo::write_file(mark, description);
+  if (options.common.force || !is_marked) vo::write_file(mark, description);
   return done;
 }
 

@@ -3,7 +3,6 @@
 #include "toml_entries.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
+#include <vo/io/csv.hpp>
 
 namespace retrace {
 namespace {
@@ -22,11 +22,10 @@ constexpr const char* kPairKeys =
     "query, reference, pairs, query-truth, reference-truth, tolerance-m or tolerance-frames";
 
 double tolerance_of(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value >= 0))
+  const std::optional<double> value = vo::parse_number(text);
+  if (!value || *value < 0)
     throw vo::Error("tolerance", fmt::format("is '{}'", text), "a number of at least 0");
-  return value;
+  return *value;
 }
 
 void put(WalkPairEntry& pair, const TomlEntry& entry, const fs::path& folder) {

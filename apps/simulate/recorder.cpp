@@ -1,8 +1,8 @@
 #include "recorder.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <fstream>
-#include <optional>
 #include <string>
 #include <system_error>
 
@@ -44,9 +44,13 @@ Recording simulate_walk(const Options& options, const fs::path& directory, bool 
                         const vo::ProgressCallback& progress) {
   validate(options);
   std::error_code failure;
-  std::optional<vo::PartialPath> made;  // unless files come into it
-  if (fs::create_directories(directory, failure))
-    made.emplace(directory.has_filename() ? directory : directory.parent_path(), vo::Removal::kIfEmpty);
+  std::vector<fs::path> missing;  // the innermost first
+  for (fs::path at = directory.has_filename() ? directory : directory.parent_path();
+       !at.empty() && !fs::exists(at, failure); at = at.parent_path())
+    missing.push_back(at);
+  std::deque<vo::PartialPath> made;  // unless files come into them; the innermost goes first
+  for (const fs::path& path : missing) made.emplace_back(path, vo::Removal::kIfEmpty);
+  fs::create_directories(directory, failure);
   if (failure)
     throw vo::Error(directory.string(), "cannot be made: " + failure.message(), "a folder one may write to");
   constexpr const char* kVideo = "walk.mp4";

@@ -68,7 +68,8 @@ void put_paths(Page& page, const Comparison& comparison) {
     if (!std::filesystem::exists(std::filesystem::path(run.folder) / "matches.csv")) continue;
     data.push_back(read_run_data(run.folder));
     views.push_back(read_run(run.folder, data.back(), nullptr));
-    views.back().true_frame = read_true_frames(run.folder);
+    std::vector<std::optional<double>> true_frame = read_true_frames(run.folder);
+    if (true_frame.size() == views.back().matches.size()) views.back().true_frame = std::move(true_frame);
     runs.push_back({run.name, &views.back()});
   }
   page.chart(

@@ -120,6 +120,20 @@ std::vector<double> unwrapped_deg(const vo::Trajectory& trajectory) {
   return headings;
 }
 
+/// A chart of the odometry's speed, for others to be compared with.
+Chart odometry_speed(const OdometryView& walk, std::string title) {
+  const auto& frames = walk.frames;
+  return {.title = std::move(title),
+          .x_title = "time, s",
+          .y_title = fmt::format("speed, {}/s", walk.summary.unit),
+          .series = {{.name = "odometry",
+                      .x = frames.time_s,
+                      .y = over_half_a_second(frames.displacement, frames.time_s),
+                      .colour = "orange"}},
+          .zoomable = true,
+          .size = "wide"};
+}
+
 }  // namespace
 
 std::optional<Chart> gait_chart(const OdometryView& walk) {
@@ -214,15 +228,7 @@ std::optional<Chart> heading_chart(const OdometryView& walk) {
 std::optional<Chart> speed_chart(const OdometryView& walk) {
   const auto& frames = walk.frames;
   if (frames.time_s.size() < 2) return {};
-  Chart chart{.title = "speed",
-              .x_title = "time, s",
-              .y_title = fmt::format("speed, {}/s", walk.summary.unit),
-              .series = {{.name = "odometry",
-                          .x = frames.time_s,
-                          .y = over_half_a_second(frames.displacement, frames.time_s),
-                          .colour = "orange"}},
-              .zoomable = true,
-              .size = "wide"};
+  Chart chart = odometry_speed(walk, "speed");
   if (std::optional<Series> truth = true_speed(walk)) chart.series.push_back(std::move(*truth));
   // SSS Fig. 9: each source by itself. Lost frames have no displacement.
   const auto add_alone = [&](std::string name, const std::vector<double>& displacement, std::string colour) {
@@ -252,16 +258,8 @@ std::optional<Chart> scale_jumps_chart(const OdometryView& walk) {
   std::optional<Series> jumping =
       speed_alone(walk, "visual odometry as it comes", frames.vo_as_it_comes, "blue");
   if (!jumping) return {};
-  Chart chart{.title = "speed by visual odometry with its jumps of scale",
-              .x_title = "time, s",
-              .y_title = fmt::format("speed, {}/s", walk.summary.unit),
-              .series = {{.name = "odometry",
-                          .x = frames.time_s,
-                          .y = over_half_a_second(frames.displacement, frames.time_s),
-                          .colour = "orange"},
-                         std::move(*jumping)},
-              .zoomable = true,
-              .size = "wide"};
+  Chart chart = odometry_speed(walk, "speed by visual odometry with its jumps of scale");
+  chart.series.push_back(std::move(*jumping));
   if (std::optional<Series> truth = true_speed(walk)) chart.series.push_back(std::move(*truth));
   constexpr double kShown = 3;  // times the odometry's: a unit may be a hundred times another
   double top = 0;

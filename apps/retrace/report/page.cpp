@@ -198,8 +198,8 @@ void Page::picture(const std::vector<std::uint8_t>& image, std::string_view desc
 
 void Page::picture(const std::string& url, std::string_view description, std::string_view caption) {
   body_ += fmt::format(
-      "<figure class=\"picture\"><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n", url,
-      escaped(description), escaped(caption));
+      "<figure class=\"picture\"><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+      escaped(url), escaped(description), escaped(caption));
 }
 
 void Page::begin_row() {

@@ -44,9 +44,9 @@ double share(double value, double first, double last) {
 /// A path as shares of both walks, by keyframes or by time.
 PathPoints path_of(const RunView& run, const WalkColumns& traverse, bool by_time) {
   PathPoints path;
-  if (run.matches.empty() || traverse.frame.size() < 2) return path;
   const std::vector<double> keyframes = upto(traverse.frame.size());
   const std::vector<double>& along = by_time ? traverse.time_s : keyframes;
+  if (run.matches.empty() || traverse.frame.size() < 2 || along.size() != traverse.frame.size()) return path;
   const std::vector<std::optional<double>> frames = frames_on_path(run, traverse);
   for (std::size_t q = 0; q < frames.size(); ++q) {
     if (!frames[q]) continue;
@@ -194,7 +194,9 @@ std::optional<Chart> path_chart(const std::vector<NamedRun>& runs) {
 
 std::optional<Chart> sampling_chart(const RunView& run) {
   const WalkColumns* traverse = main_traverse(run);
-  if (traverse == nullptr || run.true_frame.empty() || traverse->frame.size() < kFewestPoints) return {};
+  if (traverse == nullptr || run.true_frame.empty() || traverse->frame.size() < kFewestPoints ||
+      traverse->time_s.size() != traverse->frame.size())
+    return {};
   const PlaceScale scale = place_scale(*traverse);
   const QueryPlaces query = query_places(run, *traverse, scale);
   if (query.at.size() < kFewestPoints) return {};

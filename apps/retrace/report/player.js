@@ -167,7 +167,8 @@ function drawPlayer(figure, spec) {
     const turn = (state, text) => { figure.dataset.live = state; say(text); };
     turn('waiting', 'waiting for the walk');
     events.onopen = () => turn('open', 'live');
-    events.onerror = () => turn('lost', 'no connection; trying again');
+    events.onerror = () =>
+      turn('lost', events.readyState === EventSource.CLOSED ? 'no connection' : 'no connection; trying again');
     events.addEventListener('end', () => { events.close(); turn('ended', 'the walk has ended'); });
     events.onmessage = message => {
       const newest = index >= spec.samples.length - 1, sample = JSON.parse(message.data);
@@ -177,6 +178,7 @@ function drawPlayer(figure, spec) {
         index = Math.max(0, index - 1);
       }
       slider.max = spec.samples.length - 1;
+      slider.value = index;
       if (newest && timer === null) show(spec.samples.length - 1);
       say(sample.said ? announcement(sample.said) : 'live');
     };

@@ -1,5 +1,6 @@
 #include "report/run_view.hpp"
 
+#include "report/path_charts.hpp"
 #include "report/run_charts.hpp"
 #include "report/run_data.hpp"
 #include "report/run_pictures.hpp"
@@ -44,6 +45,7 @@ TEST_F(RunViewTest, ReadsTheColumnsOfWalks) {
   EXPECT_THAT(run.traverses[0].x_m, ElementsAre(1, 2));
   EXPECT_EQ(run.counts->queries, 2U);
   EXPECT_THAT(run.counts->warnings, ElementsAre("w"));
+  EXPECT_FALSE(retrace::straightness_chart(run));  // no times of the traverse's keyframes
 }
 
 TEST_F(RunViewTest, LeavesOutWhatIsOfAnotherKindOrLength) {
