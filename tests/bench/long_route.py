@@ -45,9 +45,8 @@ def main(short, long, count):
     header, row = next(csv.reader([traverses[0]])), next(csv.reader([traverses[1]]))
     values = dict(zip(header, row))
     values["frames"] = str(count)
-    for name in ("keyframes",):
-        if name in values:
-            values[name] = str(count)
+    if "keyframes" in values:
+        values["keyframes"] = str(count)
     for name in list(values):
         if name.startswith("thumbnail"):
             values[name] = "0"

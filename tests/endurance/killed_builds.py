@@ -9,6 +9,7 @@ import os
 import pathlib
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -38,23 +39,23 @@ def main():
             environment = dict(os.environ, LD_PRELOAD=shim, DISK_SHIM_FOLDER=f"{work}/", **extra)
             return subprocess.Popen(add, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
-        log = folder / "log"
         shutil.copy(old, route)
         begin = time.monotonic()
-        assert build(DISK_SHIM_LOG=str(log)).wait() == 0
+        assert build().wait() == 0
         length_s = time.monotonic() - begin
         new = route.read_bytes()
-        states, damaged = {"old": 0, "new": 0}, 0
+        states, damaged, killed = {"old": 0, "new": 0}, 0, 0
         operations = 60  # beyond the last one the build ends by itself
         for i in range(kills):
             shutil.copy(old, route)
             if i % 2 == 0:
-                build(DISK_SHIM_KILL=str(rng.randrange(operations))).wait()
+                code = build(DISK_SHIM_KILL=str(rng.randrange(operations))).wait()
             else:
                 process = build()
                 time.sleep(rng.uniform(0, 1.1 * length_s))
                 process.kill()
-                process.wait()
+                code = process.wait()
+            killed += code == -signal.SIGKILL
             found = route.read_bytes()
             state = "old" if found == old.read_bytes() else "new" if found == new else None
             if state is None or subprocess.run([retrace, "inspect", route], capture_output=True).returncode != 0:
@@ -64,7 +65,7 @@ def main():
         shutil.copy(old, route)
         assert build().wait() == 0 and route.read_bytes() == new
         left = sorted(path.name for path in work.iterdir())
-        print(f"{kills} kills: the old route {states['old']} times, the new one {states['new']} times, damaged {damaged}; "
+        print(f"{kills} builds, {killed} of them killed: the old route {states['old']} times, the new one {states['new']} times, damaged {damaged}; "
               f"left behind after one more build: {', '.join(left)}")
         return 0 if damaged == 0 and left == ["route.db"] else 1
 

@@ -3,9 +3,9 @@
 //   DISK_SHIM_FOLDER  the folder; what happens elsewhere is not counted
 //   DISK_SHIM_LOG     file to which each operation is appended: see `put`
 //   DISK_SHIM_FAIL    from the operation of this number on, writes fail as on a full disk (ENOSPC)
-//   DISK_SHIM_SIGNAL  "SIGNAL@NUMBER": at the operation of this number the process gets this signal, and
-//   waits a moment DISK_SHIM_KILL    at the operation of this number the process is killed (SIGKILL), before
-//   it is done
+//   DISK_SHIM_SIGNAL  "SIGNAL@NUMBER": the process gets this signal at this operation, then pauses 0.3 s
+//
+//   DISK_SHIM_KILL    the process is killed (SIGKILL) before the operation of this number
 #include <array>
 #include <atomic>
 #include <cerrno>

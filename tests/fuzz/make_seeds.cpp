@@ -3,7 +3,7 @@
 #include "report/run_data.hpp"
 #include "run_summary.hpp"
 #include "settings_file.hpp"
-#include "support/gpmf_pieces.hpp"
+#include "support/exif_pictures.hpp"
 
 #include <cstdio>
 #include <fstream>
@@ -25,6 +25,15 @@ void put(const fs::path& path, const std::string& bytes) {
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << bytes;
 }
+
+/// report_data.json of a walk's odometry.
+constexpr const char* kAlignment =
+    R"({"alignment": {"end_s": 2, "seconds": [0.04, 0.08], "heat": "data:image/png;base64,AA",)"
+    R"( "pictures": [{"picture": "data:image/png;base64,AA", "seconds": 0.04, "mean": 3, "most": 9}],)"
+    R"( "course": {"time_s": [0, 1], "smoothed": [1, 1.2], "relative": [0.9, null], "limit": 1.1},)"
+    R"( "high": [[0, 1]], "standing": [[1, 2]], "of_the_rest": {"seconds": [0, 0.04], "error": [0, 0.3]},)"
+    R"( "of_all": {"seconds": [0, 0.04], "error": [0, 0.4]},)"
+    R"( "relation": {"knot_error": [0], "knot_separation": [0], "error": [0, 1], "separation": [0, 1]}}})";
 
 std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -238,7 +247,7 @@ void make_all(const fs::path& folder) {
   place::FloatRows rows = place::make_float_rows(3, 2);
   rows.values = {1, -2.5F, 1e30F, 0, 0.1F, 7};
   put(folder / "odometry_report/whole", std::string(kTum) + "%%\n" + kOdometrySummary + "\n%%\n" + kFrames +
-                                            "%%\n" + kSteps + "%%\n" + kActivity);
+                                            "%%\n" + kSteps + "%%\n" + kActivity + "%%\n" + kAlignment);
   put(folder / "odometry_report/alone", kTum);
   put(folder / "npy/kept", "");  // so that the folder is there
   place::write_npy(folder / "npy/floats", rows);
@@ -251,6 +260,15 @@ void make_all(const fs::path& folder) {
       test_support::gpmf_entry("SCAL", 'l', 4, test_support::big_endian(10000000, 4)) +
       test_support::gpmf_entry("GPS9", '?', 32, std::string(30, '\x11') + std::string("\0\3", 2));
   put(folder / "gpmf/gps9", test_support::gpmf_container("DEVC", test_support::gpmf_container("STRM", gps9)));
+  put(folder / "gpmf/accl", test_support::accl_piece({{0.5, -9.75, 2}, {0, 0, -1.25}}));
+  fs::create_directories(folder / "exif");
+  test_support::write_exif_picture(
+      folder / "exif/whole", cv::Mat(4, 4, CV_8UC1, cv::Scalar(90)),
+      {.time = "2024:05:31 14:00:00", .fraction = "25", .zone = "+02:00", .position_deg = {{48.1, 11.5}}});
+  put(folder / "pairs/two.toml",
+      "[park]\nquery = [\"a.mp4\", \"b.mp4\"]\nreference = \"c.mp4\"\npairs = \"p.csv\"\n"
+      "tolerance-frames = 17\n\n[street]\nquery = \"d\"\nreference = \"e\"\nquery-truth = \"q.csv\"\n"
+      "reference-truth = \"r.csv\"\ntolerance-m = 4.5\n");
   put(folder / "y4m/420", y4m("W8 H6 F25:1 Ip A1:1 C420jpeg XYSCSS=420JPEG", "FRAME", 72));
   put(folder / "y4m/mono", y4m("W6 H4 F30000:1001 Ip A0:0 Cmono", "FRAME Ip", 24));
   put(folder / "y4m/deep", y4m("W4 H4 F25:1 Ip A4:3 C444p10", "FRAME", 96));

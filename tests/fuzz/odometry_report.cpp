@@ -1,13 +1,14 @@
-// What a report of odometry is drawn from: trajectory.tum, summary.json, frames.csv, steps.csv and
-// activity.csv of a walk, between lines of %%.
+// What a report of odometry is drawn from: trajectory.tum, summary.json, frames.csv, steps.csv, activity.csv
+// and report_data.json of a walk, between lines of %%.
 #include "report/odometry_report.hpp"
 
 #include "fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto parts = fuzz::parts({data, size}, 5);
+  const auto parts = fuzz::parts({data, size}, 6);
   std::size_t i = 0;
-  for (const char* name : {"trajectory.tum", "summary.json", "frames.csv", "steps.csv", "activity.csv"}) {
+  for (const char* name :
+       {"trajectory.tum", "summary.json", "frames.csv", "steps.csv", "activity.csv", "report_data.json"}) {
     if (parts[i].empty()) {
       std::filesystem::remove(fuzz::folder() / name);
     } else {

@@ -3,7 +3,8 @@
 # finding, which stays in build/fuzz/findings. What is found is mended and becomes a unit test.
 #   bash tests/fuzz/run.sh SECONDS [target ...]     by default all of them, each for so many seconds
 # Inputs that reached something new stay in build/fuzz/corpus, and the next run begins with them. With
-# RETRACE_FUZZ_RUNS=N each stops after N executions, or after SECONDS.
+# RETRACE_FUZZ_RUNS=N each stops after N executions, or after SECONDS. RETRACE_FUZZ_SEED=N makes runs alike; CI has one, so
+# that a change answers for what it changed and not for its luck.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -29,13 +30,14 @@ run() {
     track) dictionary=xml ;;
     run | report | odometry_report) dictionary=json ;;
     calibration) dictionary=calibration ;;
+    pairs) dictionary=pairs ;;
     route_database) longest=65536 ;;  # bytes of an input; the seeds have 13 000
   esac
   dictionary=tests/fuzz/dictionaries/$dictionary.dict
   [[ $target == settings ]] && dictionary=$fuzz/seeds/settings.dict  # their names
   mkdir -p "$fuzz/corpus/$target"
   # Beside the 50 times its file that a reader is held to (fuzz.hpp): at most 64 MB at once, 1 GB with what the sanitizers need.
-  "$fuzz/bin/fuzz_$target" -max_total_time="$seconds" -runs="${RETRACE_FUZZ_RUNS:--1}" -max_len="$longest" -timeout=20 -malloc_limit_mb=64 \
+  "$fuzz/bin/fuzz_$target" -max_total_time="$seconds" -runs="${RETRACE_FUZZ_RUNS:--1}" -seed="${RETRACE_FUZZ_SEED:-0}" -max_len="$longest" -timeout=20 -malloc_limit_mb=64 \
     -rss_limit_mb=1024 -dict="$dictionary" -artifact_prefix="$fuzz/findings/$target-" -print_final_stats=1 \
     "$fuzz/corpus/$target" "$fuzz/seeds/$target" >"$log" 2>&1 </dev/null || status=$?
   if ((status == 0)); then
