@@ -77,7 +77,8 @@ std::vector<float> gradient_cells(const cv::Mat& frame, const CellGrid& grid) {
                     row_stride = (static_cast<std::size_t>(grid.columns) + 2) * directions;
   std::vector<float> cells((static_cast<std::size_t>(grid.rows) + 2) * row_stride);
   const std::size_t stride = static_cast<std::size_t>(width) + 2;
-  std::vector<float> magnitude(static_cast<std::size_t>(width)), at(magnitude.size());
+  std::vector<float> magnitude(static_cast<std::size_t>(width)), second_share(magnitude.size());
+  std::vector<int> first(magnitude.size());  // of the two nearest directions
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* row = image.data() + static_cast<std::size_t>(y + 1) * stride + 1;
     for (int x = 0; x < width; ++x) {
@@ -85,22 +86,25 @@ std::vector<float> gradient_cells(const cv::Mat& frame, const CellGrid& grid) {
       const auto dy = static_cast<float>(row[x + static_cast<std::ptrdiff_t>(stride)] -
                                          row[x - static_cast<std::ptrdiff_t>(stride)]);
       magnitude[static_cast<std::size_t>(x)] = std::sqrt(dx * dx + dy * dy);
-      at[static_cast<std::size_t>(x)] = turns(dx, dy) * static_cast<float>(directions) - 0.5F;
+      const float at = turns(dx, dy) * static_cast<float>(grid.directions) - 0.5F;
+      const int truncated = static_cast<int>(at);
+      const int low = truncated - (at < static_cast<float>(truncated) ? 1 : 0);
+      second_share[static_cast<std::size_t>(x)] = at - static_cast<float>(low);
+      first[static_cast<std::size_t>(x)] = low < 0 ? low + grid.directions : low;
     }
     const float lower = down.second[static_cast<std::size_t>(y)];
     float* const upper_row =
         cells.data() + static_cast<std::size_t>(down.first[static_cast<std::size_t>(y)] + 1) * row_stride;
     for (std::size_t x = 0; x < magnitude.size(); ++x) {
       if (magnitude[x] == 0) continue;
-      const float low = std::floor(at[x]);
-      const float second_share = at[x] - low;
-      const auto whole = static_cast<std::size_t>(static_cast<int>(low) + grid.directions);
-      const std::size_t first = whole % directions, second = (whole + 1) % directions;
+      const auto one = static_cast<std::size_t>(first[x]);
+      const std::size_t next = one + 1 == directions ? 0 : one + 1;
+      const float share = second_share[x];
       float* const cell = upper_row + static_cast<std::size_t>(across.first[x] + 1) * cell_stride;
       const float right = across.second[x];
       const auto add = [&](float* histogram, float weight) {
-        histogram[first] += weight * (1 - second_share);
-        histogram[second] += weight * second_share;
+        histogram[one] += weight * (1 - share);
+        histogram[next] += weight * share;
       };
       add(cell, magnitude[x] * (1 - lower) * (1 - right));
       add(cell + cell_stride, magnitude[x] * (1 - lower) * right);

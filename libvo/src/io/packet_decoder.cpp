@@ -1,6 +1,7 @@
 #include "io/packet_decoder.hpp"
 
 #include "vo/base/error.hpp"
+#include "vo/base/parallel.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -61,7 +62,10 @@ PacketDecoder::PacketDecoder(std::string source, int threads)
     : source_(std::move(source)), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
   std::error_code ignored;
   can_reopen_ = source_ != "-" && !is_address(source_) && std::filesystem::is_regular_file(source_, ignored);
-  open(threads);
+  // Pictures wait for parts of those that they are predicted from, and threads with them; 16 are FFmpeg's
+  // most.
+  constexpr int kForEachCore = 4, kMost = 16;
+  open(threads > 0 ? threads : std::min(kForEachCore * thread_count(), kMost));
 }
 
 void PacketDecoder::open(int threads) {
@@ -82,8 +86,17 @@ void PacketDecoder::open(int threads) {
   require(avcodec_parameters_to_context(codec_.get(), stream_->codecpar) >= 0);
   codec_->opaque = errors_.key();
   codec_->get_buffer2 = empty_buffer;
+#if LIBAVCODEC_VERSION_MAJOR < \
+    60  // later it is taken for granted; without it decoding threads wait for this one
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+  codec_->thread_safe_callbacks = 1;
+#pragma GCC diagnostic pop
+#endif
   codec_->pkt_timebase = stream_->time_base;
   codec_->thread_count = threads;
+  // Threads that share a picture do not delay it; those that take one each do, and are faster.
+  if (is_address(source_)) codec_->thread_type = FF_THREAD_SLICE;
   require(avcodec_open2(codec_.get(), codec, nullptr) == 0);
   serial_ = threads == 1;
   drained_ = false;

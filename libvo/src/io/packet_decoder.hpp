@@ -26,8 +26,8 @@ struct DecodingReport {
 /// already: the same pictures and the same count in every run and for any number of threads.
 class PacketDecoder {
  public:
-  /// `source`: a path, an rtsp:// address, or `-` for Y4M on standard input. `threads`: 0 for as many as
-  /// there are cores. Throws `vo::Error` if FFmpeg finds no video.
+  /// `source`: a path, an rtsp:// address, or `-` for Y4M on standard input. `threads`: 0 for a few for
+  /// each of `thread_count`. Throws `vo::Error` if FFmpeg finds no video.
   explicit PacketDecoder(std::string source, int threads = 0);
 
   /// The next frame, which lives until the next call; null at the end.

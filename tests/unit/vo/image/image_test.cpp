@@ -51,6 +51,23 @@ TEST(Thumbnail, IsOpenCvsAreaResize) {
   }
 }
 
+TEST(Thumbnail, IsExactForAnySize) {
+  // White pictures reach the largest sums; the sizes are on both sides of those that take 16 and 32 bits.
+  for (const cv::Size size : {cv::Size(64, 257), cv::Size(64, 259), cv::Size(65'537, 257),
+                              cv::Size(1009, 601), cv::Size(65'539, 2)}) {
+    std::vector<std::uint8_t> thumbnail(3 * 2);
+    vo::make_thumbnail(cv::Mat(size, CV_8UC1, cv::Scalar(255)), {.width = 3, .height = 2}, thumbnail);
+    EXPECT_THAT(thumbnail, testing::Each(255)) << size.width << "x" << size.height;
+  }
+  // An odd picture halved: the middle row counts for both, half each.
+  cv::Mat rows(601, 4, CV_8UC1, cv::Scalar(10));
+  rows.rowRange(0, 301).setTo(200);
+  std::vector<std::uint8_t> thumbnail(2);
+  vo::make_thumbnail(rows, {.width = 1, .height = 2}, thumbnail);
+  EXPECT_EQ(thumbnail[0], 200);
+  EXPECT_EQ(thumbnail[1], 10);  // and half a row of 300.5 that is 190 more: 10.3
+}
+
 TEST(Thumbnail, KeepsGreyAsItIsAndTakesColour) {
   std::vector<std::uint8_t> thumbnail(8);
   vo::make_thumbnail(cv::Mat(2, 4, CV_8UC1, cv::Scalar(77)), {.width = 4, .height = 2}, thumbnail);
