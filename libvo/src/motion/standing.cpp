@@ -18,18 +18,30 @@ namespace vo {
 
 namespace {
 
-/// Errors between the frames not excluded and those half of their number later.
+/// Errors between frames and those a share of their number later.
+std::vector<double> errors_apart(const ImageStack& normalised, const std::vector<std::size_t>& frames,
+                                 double share) {
+  const auto apart = static_cast<std::size_t>(share * static_cast<double>(frames.size()));
+  if (apart == 0) return {};
+  std::vector<double> errors(frames.size() - apart);
+  parallel_for(errors.size(), [&](std::size_t i) {
+    errors[i] = alignment_error(normalised[frames[i]], normalised[frames[i + apart]]);
+  });
+  return errors;
+}
+
+/// Errors between the frames not excluded and those half of their number later. A walker who goes round twice
+/// is at the same place then; where errors at another distance, which no small number of rounds divides, are
+/// clearly larger, it is those.
 std::vector<double> distant_errors(const ImageStack& normalised, const std::vector<bool>& excluded) {
+  constexpr double kGolden = 0.381966, kClearly = 1.25;
   std::vector<std::size_t> frames;
   for (std::size_t i = 0; i < normalised.size(); ++i)
     if (excluded.empty() || !excluded[i]) frames.push_back(i);
-  const std::size_t half = frames.size() / 2;
-  if (half == 0) return {};
-  std::vector<double> errors(frames.size() - half);
-  parallel_for(errors.size(), [&](std::size_t i) {
-    errors[i] = alignment_error(normalised[frames[i]], normalised[frames[i + half]]);
-  });
-  return errors;
+  std::vector<double> half = errors_apart(normalised, frames, 0.5);
+  std::vector<double> other = errors_apart(normalised, frames, kGolden);
+  const bool in_rounds = !half.empty() && !other.empty() && median(other) > kClearly * median(half);
+  return in_rounds ? other : half;
 }
 
 }  // namespace

@@ -57,6 +57,28 @@ TEST(DistantError, OfUnrelatedNormalPicturesIsAsStated) {
   EXPECT_NEAR(vo::distant_error(walk), 2 / std::sqrt(std::numbers::pi), 0.057);
 }
 
+/// A walk that goes round the same way several times.
+vo::ImageStack in_rounds(const vo::ImageStack& once, int rounds) {
+  vo::ImageStack walk = once;
+  for (int i = 1; i < rounds; ++i)
+    walk.pixels.insert(walk.pixels.end(), once.pixels.begin(), once.pixels.end());
+  return walk;
+}
+
+TEST(DistantError, OfAWalkInRoundsIsThatOfOnce) {
+  const vo::ImageStack once = random_images(16, 8, 60, 1);
+  const double unlike = vo::distant_error(once);
+  for (const int rounds : {2, 3, 4, 6})
+    EXPECT_NEAR(vo::distant_error(in_rounds(once, rounds)), unlike, 0.1 * unlike) << rounds;
+}
+
+TEST(FindPauses, SeesAStopOfAWalkInRounds) {
+  const auto pauses = vo::find_pauses(in_rounds(walk_with_a_stop(100, 40, 70), 2), times(200));
+  EXPECT_FALSE(pauses.still);
+  ASSERT_EQ(pauses.standing.size(), 200U);
+  for (std::size_t i = 0; i < 200; ++i) EXPECT_EQ(pauses.standing[i], i % 100 >= 41 && i % 100 <= 69) << i;
+}
+
 TEST(DistantError, LeavesFramesOut) {
   const vo::ImageStack walk{.width = 1, .height = 1, .pixels = {128, 0, 128, 128, 255, 144, 160, 192}};
   EXPECT_EQ(vo::distant_error(walk, {false, true, false, false, true, false, false, false}), 2);
