@@ -1,91 +1,32 @@
 #include "added_traverse.hpp"
+#include "build_options.hpp"
 #include "command.hpp"
 #include "import_route.hpp"
-#include "json_file.hpp"
-#include "progress_bar.hpp"
 #include "report/build_report.hpp"
-#include "run_directory.hpp"
-#include "survey_files.hpp"
+#include "walk_reading.hpp"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
-#include <system_error>
 #include <vector>
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <place/place.hpp>
 #include <place/route/named_places.hpp>
 #include <place/route/route_lock.hpp>
-#include <place/stage_options.hpp>
-#include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/io/atomic_file.hpp>
 
 namespace retrace {
 namespace {
 
-struct BuildOptions {
-  place::Settings settings;
-  CommonOptions common;
-  std::vector<std::string> walk;
-  std::string output;
-  std::string name;
-  SurveyFiles survey;
-  std::string import;
-  std::string places;
-  std::string report;
-};
-
-/// The default name of the traverse: the recording's, without folders and extension.
-std::string default_name(const std::string& walk) {
-  std::filesystem::path path(walk);
-  if (!path.has_filename()) path = path.parent_path();  // "folder/"
-  return path.stem().string();
-}
-
-void check_name_is_free(const place::Route& route, const BuildOptions& options) {
-  for (const place::Traverse& traverse : route.traverses) {
-    if (traverse.name == options.name && !options.common.force) {
-      throw vo::Error(options.output, fmt::format("already has a traverse '{}'", options.name),
-                      "another --name, or --force to replace it");
-    }
-  }
-}
-
-void check_report(const BuildOptions& options) {
-  check_writable(options.report);
-  const std::filesystem::path report = options.report;
-  std::error_code ignored;
-  const auto real = [&](const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored);
-  };
-  if (real(report) == real(options.output))
-    throw vo::Error(options.report, "is the route itself", "another file for --report");
-  if (std::filesystem::exists(report) && !options.common.force)
-    throw vo::Error(options.report, "already exists", "another file, or --force to overwrite");
-}
-
 void build(BuildOptions& options) {
-  if (!options.import.empty()) {
-    if (!options.walk.empty() || !options.name.empty() || options.settings != place::Settings{} ||
-        options.survey != SurveyFiles{} || !options.places.empty() || !options.report.empty())
-      throw vo::Error("--import",
-                      "leaves no choice of a walk, a name, places, a survey, a report or settings",
-                      "--output alone: all else is in the folder");
-    return import_route(options.import, options.output, options.common);
-  }
-  if (options.walk.empty())
-    throw vo::Error("walk", "is missing", std::string(kWalkArgument) + ", or --import");
+  check_build(options);
+  if (!options.import.empty()) return import_route(options.import, options.output, options.common);
   vo::set_thread_count(options.settings.threads.value_or(0));
-  check_writable(options.output);
-  if (!options.report.empty()) check_report(options);
   std::vector<place::PlaceName> names;
   if (!options.places.empty()) names = place::read_place_names(options.places);
-  if (options.name.empty()) options.name = default_name(options.walk.front());
   const place::RouteLock lock(options.output, {.waiting = [&] {
                                 spdlog::info("{}: another build adds to it; waiting", options.output);
                               }});
@@ -94,27 +35,20 @@ void build(BuildOptions& options) {
   if (exists) route = place::read_route(options.output);
   const place::Settings given = settings_beside(options.survey, options.settings, route.settings.motion);
   if (!exists) route = place::new_route(given);
-  check_name_is_free(route, options);
+  check_name_is_free(options, route);
   const place::Settings settings =
       place::resolve(given, {.purpose = place::Purpose::kRoute, .route = exists ? &route.settings : nullptr});
 
-  vo::Walk walk;
-  {
-    ProgressBar bar(options.walk.front());
-    walk = place::read(options.walk, settings, bar.callback());
-  }
-  for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
+  const vo::Walk walk = read_with_bar(options.walk, settings);
+  log_warnings(walk.warnings);
   const std::optional<place::Survey> survey = read_survey(options.survey, options.settings, walk, route);
-  if (survey) {
-    for (const std::string& warning : survey->warnings) spdlog::warn("{}", warning);
-  }
+  if (survey) log_warnings(survey->warnings);
   const place::AddedTraverse added =
       place::add(route, options.name, walk, survey, settings, options.common.force);
-  for (const std::string& warning : added.warnings) spdlog::warn("{}", warning);
+  log_warnings(added.warnings);
   place::Traverse& traverse = route.traverses[added.index];
   traverse.places = place::named_places(names, traverse);
-  lock.check_unchanged();
-  place::write_route(options.output, route);
+  lock.write(route);
   if (!options.report.empty()) vo::write_file(options.report, build_report(route, added, walk, settings));
   print_added(options.output, route, added, options.common.json);
 }

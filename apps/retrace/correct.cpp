@@ -1,6 +1,7 @@
 #include "command.hpp"
-#include "run_files.hpp"
+#include "run_directory.hpp"
 #include "run_summary.hpp"
+#include "trajectory_files.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <place/match/match_io.hpp>
+#include <place/route/route_database.hpp>
 #include <vo/base/error.hpp>
 #include <vo/io/trajectory_io.hpp>
 
@@ -27,8 +29,7 @@ struct CorrectOptions {
 
 void correct(const CorrectOptions& options) {
   const fs::path folder = options.folder;
-  if (!fs::is_directory(folder))
-    throw vo::Error(options.folder, "is no folder", "one written by `retrace localise`");
+  check_written_by("localise", folder);
   const place::Route route = place::read_route(options.route, {.previews = false});
   std::vector<place::Match> matches = place::read_matches(folder / "matches.csv");
   place::locate(matches, route);

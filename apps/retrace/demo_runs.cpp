@@ -15,7 +15,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <place/route/survey.hpp>
-#include <vo/base/error.hpp>
 #include <vo/io/frame_source.hpp>
 #include <vo/io/trajectory_io.hpp>
 
@@ -25,14 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReference = "day";
-
-/// Half a demo is useless: Ctrl-C ends it.
-vo::ProgressCallback or_interrupted(ProgressBar& bar) {
-  return [show = bar.callback()](const vo::Progress& progress) {
-    if (!show(progress)) throw vo::Error(progress.stage, "was interrupted");
-    return true;
-  };
-}
 
 /// The first frame of the video at which the walker had covered this distance.
 cv::Mat view_at(const DrawnWalk& drawn, double distance_m) {
@@ -72,10 +63,10 @@ DrawnWalk draw_and_read(const simulate::Options& options, const fs::path& folder
   DrawnWalk drawn{folder, {}};
   {
     ProgressBar bar;
-    simulate::simulate_walk(options, folder, true, or_interrupted(bar));
+    simulate::simulate_walk(options, folder, true, bar.whole_or_nothing());
   }
   ProgressBar bar;
-  drawn.walk = place::read(drawn.video(), settings, or_interrupted(bar));
+  drawn.walk = place::read(drawn.video(), settings, bar.whole_or_nothing());
   return drawn;
 }
 

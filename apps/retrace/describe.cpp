@@ -1,16 +1,15 @@
 #include "command.hpp"
 #include "json_file.hpp"
-#include "progress_bar.hpp"
 #include "run_directory.hpp"
+#include "walk_reading.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <variant>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/spdlog.h>
 
 #include <place/describe/npy.hpp>
 #include <place/place.hpp>
@@ -31,23 +30,6 @@ struct DescribeOptions {
   std::string output;
 };
 
-/// Numbers of descriptors in a row.
-std::size_t write(const std::string& path, const place::Descriptors& descriptors) {
-  if (const auto* images = std::get_if<vo::ImageStack>(&descriptors)) {
-    place::write_npy(path, images->pixels, images->image_size());
-    return images->image_size();
-  }
-  if (const auto* stack = std::get_if<place::ColumnStack>(&descriptors)) {
-    const place::FloatRows rows{.width = stack->descriptor_size(),
-                                .values = {stack->values.begin(), stack->values.end()}};
-    place::write_npy(path, rows);
-    return rows.width;
-  }
-  const auto& rows = std::get<place::FloatRows>(descriptors);
-  place::write_npy(path, rows);
-  return rows.width;
-}
-
 void describe(const DescribeOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
   const std::string beside = options.output + ".csv";
@@ -62,18 +44,14 @@ void describe(const DescribeOptions& options) {
   given.preview_width_px = 0;
   place::Settings settings = place::resolve(
       given, {.purpose = place::Purpose::kRoute, .route = options.route.empty() ? nullptr : &route.settings});
-  vo::Walk walk;
-  {
-    ProgressBar bar(options.walk.front());
-    walk = place::read(options.walk, settings, bar.callback());
-  }
-  for (const std::string& warning : walk.warnings) spdlog::warn("{}", warning);
+  const vo::Walk walk = read_with_bar(options.walk, settings);
+  log_warnings(walk.warnings);
   if (settings.motion == "auto")
     settings = place::choose_motion(settings, walk, place::stage_options(settings).sampling.motion.pedestrian)
                    .settings;
   const place::SampledWalk sampled =
       place::sample_walk(walk, place::stage_options(settings).sampling, &route);
-  for (const std::string& warning : sampled.warnings) spdlog::warn("{}", warning);
+  log_warnings(sampled.warnings);
   if (sampled.descriptors.size() != 1)
     throw vo::Error("descriptor", fmt::format("is {}", *settings.descriptor), "one descriptor to write");
 
@@ -82,7 +60,7 @@ void describe(const DescribeOptions& options) {
   const std::filesystem::path output(options.output);
   StagedFiles staged(output.has_parent_path() ? output.parent_path() : ".");
   const std::filesystem::path file = staged.path() / output.filename();
-  const std::size_t width = write(file.string(), sampled.descriptors.front());
+  const std::size_t width = place::write_npy(file, sampled.descriptors.front());
   vo::write_file(file.string() + ".csv", csv);
   staged.commit();
   if (options.common.json) {

@@ -152,8 +152,7 @@ fs::path evaluation_page(const fs::path& folder) {
 
 std::pair<place::RunEvaluation, ordered_json> evaluate_folder(const fs::path& folder,
                                                               const TruthOptions& options) {
-  if (!fs::is_directory(folder))
-    throw vo::Error(folder.string(), "is no folder", "one written by `retrace localise`");
+  check_written_by("localise", folder);
   prepare_run_directory(folder, {}, true);
   const std::vector<place::Match> matches = place::read_matches(folder / "matches.csv");
   Truth known = read_truth(options);

@@ -1,7 +1,7 @@
 #include "follow_files.hpp"
 
-#include "run_files.hpp"
 #include "settings_file.hpp"
+#include "trajectory_files.hpp"
 
 #include <algorithm>
 

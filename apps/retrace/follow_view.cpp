@@ -40,10 +40,23 @@ std::optional<std::size_t> number_at(std::string_view& text) {
 
 }  // namespace
 
+void declare_view(Arguments& arguments, FollowViewOptions& options) {
+  const Argument view =
+      arguments
+          .option("--view", options.port,
+                  "port at which this machine's browser sees the walk; 0: any, which is printed")
+          .range(0, 65535);
+  arguments
+      .option("--view-address", options.address,
+              "address to serve the page at; another than the default is for others to see it too")
+      .needs(view);
+}
+
 FollowView::FollowView(const place::Route& route, const std::string& walk, const FollowViewOptions& options)
     : route_(route),
       page_(view_page(route, walk)),
-      server_(options.address, options.port, [this](const std::string& path) { return file(path); }) {}
+      server_(options.address, static_cast<int>(options.port.value()),
+              [this](const std::string& path) { return file(path); }) {}
 
 /// The page, or the picture of a keyframe: /references/TRAVERSE/KEYFRAME.jpg.
 std::optional<ServedFile> FollowView::file(const std::string& path) const {

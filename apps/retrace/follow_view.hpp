@@ -1,8 +1,10 @@
 #pragma once
 
+#include "arguments.hpp"
 #include "event_server.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,16 +18,18 @@ namespace retrace {
 
 /// Where a live page is served.
 struct FollowViewOptions {
+  std::optional<std::size_t> port;  ///< none: there is no page; 0: any that is free
   std::string address = "127.0.0.1";
-  int port = 0;  ///< 0: any that is free
 };
+
+void declare_view(Arguments& arguments, FollowViewOptions& options);
 
 /// The page of `retrace follow --view`: what `FollowRecord` leaves, while the walk goes on. A picture is made
 /// for it ten times a second at most, and only while somebody looks.
 class FollowView {
  public:
-  /// Serves the page at once. The route, read with previews, must outlive this. Throws `vo::Error` where the
-  /// address or the port cannot be had.
+  /// Serves the page at once, at a port that the options have. The route, read with previews, must outlive
+  /// this. Throws `vo::Error` where the address or the port cannot be had.
   FollowView(const place::Route& route, const std::string& walk, const FollowViewOptions& options);
 
   [[nodiscard]] std::string url() const { return server_.url(); }

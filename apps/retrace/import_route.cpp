@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <place/route/route_database.hpp>
 #include <place/route/route_folder.hpp>
 #include <place/route/route_lock.hpp>
 #include <vo/base/error.hpp>
@@ -21,8 +20,7 @@ void import_route(const std::string& folder, const std::string& output, const Co
   if (!common.force && std::filesystem::exists(output))
     throw vo::Error(output, "already exists", "another name, or --force to overwrite");
   const place::Route route = place::read_route_folder(folder);
-  lock.check_unchanged();
-  place::write_route(output, route);
+  lock.write(route);
   const std::size_t traverses = route.traverses.size();
   if (common.json) {
     fmt::print("{}\n", json_text({{"route", output}, {"traverses", traverses}}, 2));

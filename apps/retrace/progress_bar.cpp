@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <vo/base/error.hpp>
 #include <vo/io/frame_source.hpp>
 
 namespace retrace {
@@ -30,6 +31,13 @@ ProgressBar::~ProgressBar() {
 
 vo::ProgressCallback ProgressBar::callback() {
   return [this](const vo::Progress& progress) { return show(progress); };
+}
+
+vo::ProgressCallback ProgressBar::whole_or_nothing() {
+  return [this](const vo::Progress& progress) {
+    if (!show(progress)) throw vo::Error(progress.stage, "was interrupted");
+    return true;
+  };
 }
 
 bool ProgressBar::show(const vo::Progress& progress) {

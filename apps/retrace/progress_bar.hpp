@@ -26,6 +26,9 @@ class ProgressBar {
   /// A callback for successive stages, valid while this object lives; rates are those of the stage.
   [[nodiscard]] vo::ProgressCallback callback();
 
+  /// The same where half a result is of no use: throws `vo::Error` if the stage was ended.
+  [[nodiscard]] vo::ProgressCallback whole_or_nothing();
+
  private:
   bool show(const vo::Progress& progress);
 

@@ -74,6 +74,17 @@ void check_writable(const fs::path& file) {
   check_writable_folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
 }
 
+void check_new_file(const fs::path& file, bool force, const std::string& otherwise) {
+  check_writable(file);
+  if (!force && fs::exists(file))
+    throw vo::Error(file.string(), "already exists", otherwise + ", or --force to overwrite");
+}
+
+void check_written_by(const std::string& command, const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw vo::Error(folder.string(), "is no folder", fmt::format("one written by `retrace {}`", command));
+}
+
 void check_not_swapped(const std::string& walk, const std::string& route) {
   if (!place::looks_like_route(walk) || place::looks_like_route(route)) return;
   throw vo::Error(

@@ -39,6 +39,13 @@ class StagedFiles {
 /// done.
 void check_writable(const std::filesystem::path& file);
 
+/// The same for a file that is not to be there yet, unless `force`. `otherwise`: what else the user may give,
+/// as "another name".
+void check_new_file(const std::filesystem::path& file, bool force, const std::string& otherwise);
+
+/// Throws `vo::Error` unless the folder is there, saying which command of `retrace` writes such a one.
+void check_written_by(const std::string& command, const std::filesystem::path& folder);
+
 /// Throws `vo::Error` where the walk is a route database and the route is none: the two were swapped.
 void check_not_swapped(const std::string& walk, const std::string& route);
 

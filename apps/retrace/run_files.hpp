@@ -24,18 +24,10 @@ struct WrittenRun {
 
 /// Finds a walk on a route (`place::localise`) and writes all of a run into an existing folder: matches.csv,
 /// the trajectories, summary.json, config.toml, the report and the cost matrix. `whole_matrices`: D.csv and
-/// DD.csv too. `stored`: the route was read without descriptors.
-/// Warnings go to the log.
-WrittenRun localise_into(const std::filesystem::path& folder, const place::Route& route,
+/// DD.csv too. `stored`: the route was read without descriptors and previews, and gets the previews that the
+/// report shows. Warnings go to the log.
+WrittenRun localise_into(const std::filesystem::path& folder, place::Route& route,
                          const std::string& route_path, const vo::Walk& walk, const place::Settings& settings,
                          bool whole_matrices = false, const StoredRun* stored = nullptr);
-
-/// Writes trajectory.tum: the corrected poses, or else those of accepted matches. With a correction also
-/// trajectory_odometry.tum and trajectory.csv. If the route is surveyed and has an origin, trajectory.geojson
-/// and .gpx have the poses of trajectory.tum with the probabilities of their matches. Those not written are
-/// removed, since they would belong to another run. `start_utc_s`: see `place::to_gpx`.
-void write_trajectory(const place::QueryTrajectory& trajectory, const place::Route& route,
-                      const std::vector<place::Match>& matches, const std::filesystem::path& folder,
-                      std::optional<double> start_utc_s);
 
 }  // namespace retrace

@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "drawn_walk_arguments.hpp"
 #include "json_file.hpp"
 #include "progress_bar.hpp"
 
@@ -46,64 +47,12 @@ void simulate_walk(const SimulateOptions& options) {
   }
 }
 
-/// A number with its default shown; its range is checked by the simulator, which knows the scene.
-template <typename T>
-void add(Arguments& arguments, const char* group, const char* name, T& target, const char* description) {
-  arguments.option(name, target, description).group(group);
-}
-
-template <typename Choice>
-void add_choice(Arguments& arguments, const char* group, const char* name, Choice& target,
-                const std::vector<std::pair<std::string, Choice>>& choices, const char* description) {
-  arguments.choice(name, target, choices, description).group(group);
-}
-
-void add_walk_options(Arguments& arguments, simulate::Options& walk) {
-  using simulate::Condition, simulate::Scene, simulate::Speed;
-  constexpr const char *kRoute = "Route", *kWalker = "Walker", *kCamera = "Camera";
-  add_choice(arguments, kRoute, "--scene", walk.scene,
-             {{"street", Scene::kStreet}, {"corridor", Scene::kCorridor}}, "what is walked along");
-  add(arguments, kRoute, "--length-m", walk.length_m,
-      "metres of route; a longer one begins with the shorter one");
-  add(arguments, kRoute, "--seed", walk.seed, "the route and everything along it");
-  add_choice(arguments, kRoute, "--condition", walk.condition,
-             {{"day", Condition::kDay}, {"night", Condition::kNight}, {"rain", Condition::kRain}},
-             "light and weather");
-  add_choice(arguments, kWalker, "--speed", walk.speed,
-             {{"steady", Speed::kSteady},
-              {"slow-fast", Speed::kSlowFast},
-              {"fast-slow", Speed::kFastSlow},
-              {"varied", Speed::kVaried},
-              {"stops", Speed::kStops},
-              {"run", Speed::kRun}},
-             "how the pace changes on the way");
-  add(arguments, kWalker, "--gait-seed", walk.gait_seed,
-      "the walker, varied speeds, passers-by and sensor noise");
-  add(arguments, kWalker, "--lateral-m", walk.lateral_m, "metres right of the route, left if negative");
-  add(arguments, kWalker, "--detour-m", walk.detour_m, "metres walked in all into a side street, and back");
-  add(arguments, kWalker, "--start-m", walk.start_m, "metres along the route where the walk begins");
-  add(arguments, kWalker, "--people", walk.people, "passers-by met");
-  add(arguments, kCamera, "--failures", walk.failures,
-      "stretches, spread evenly, in which the camera tells nothing of its motion: by turns black, out of "
-      "focus, "
-      "turned aside and back, before a blank wall [SSS Fig. 9]");
-  add(arguments, kCamera, "--failure-s", walk.failure_s, "seconds that each lasts");
-  add(arguments, kCamera, "--camera-yaw-deg", walk.camera_yaw_deg,
-      "degrees that the camera is turned to the right");
-  add(arguments, kCamera, "--camera-pitch-deg", walk.camera_pitch_deg,
-      "degrees that the camera is turned upwards");
-  add(arguments, kCamera, "--fov-deg", walk.fov_deg, "degrees from left to right [PVO 5.3]");
-  add(arguments, kCamera, "--frame-rate-hz", walk.frame_rate_hz, "frames per second [PVO 5.1]");
-  add(arguments, kCamera, "--width", walk.size.width, "pixels [PVO 5.1]");
-  add(arguments, kCamera, "--height", walk.size.height, "pixels [PVO 5.1]");
-}
-
 }  // namespace
 
 std::function<void()> declare_simulate(Arguments& arguments) {
   auto options = std::make_shared<SimulateOptions>();
   arguments.option("-o,--output", options->output, "folder for walk.mp4 and truth.csv").required();
-  add_walk_options(arguments, options->walk);
+  declare_drawn_walk(arguments, options->walk);
   arguments.settings(options->settings, {place::SettingGroup::kGeneral});
   arguments.common(options->common);
   arguments.footer(

@@ -1,13 +1,37 @@
 #include "stored_run.hpp"
 
+#include "memory_limit.hpp"
+
+#include <exception>
+
 #include <nlohmann/json.hpp>
 
 #include <place/match/stored_search.hpp>
 #include <place/route/route_database.hpp>
+#include <vo/base/error.hpp>
 
 namespace retrace {
 
 using nlohmann::ordered_json;
+
+std::optional<StoredRun> stored_run(LaunchedTeam* team, const std::string& memory) {
+  if (memory.empty()) return team != nullptr ? std::optional(StoredRun{team, {}}) : std::nullopt;
+  const std::size_t bytes = bytes_of(memory);
+  if (team != nullptr) throw vo::Error("--memory", "has no effect on several processes", "more of them");
+  limit_memory(bytes);
+  return StoredRun{nullptr, bytes};
+}
+
+void run_as_team(LaunchedTeam& team, const std::function<void()>& first, const std::function<void()>& serve) {
+  try {
+    if (team.rank() > 0) return serve();
+    first();
+    team.exchange({});  // the others may end
+  } catch (const std::exception& error) {
+    team.fail(error.what());
+    if (team.rank() == 0) throw;  // one line is enough
+  }
+}
 
 void read_matched_previews(const std::string& path, const std::vector<place::Match>& matches,
                            place::Route& route) {

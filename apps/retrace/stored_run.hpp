@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,13 +17,20 @@
 
 namespace retrace {
 
-/// A search of descriptors that stay in the route database.
+/// A search of descriptors that stay in the route database, so that the route is read without them.
 struct StoredRun {
-  place::Route* route = nullptr;            ///< the route, which gets the pictures that the report shows
-  place::Team* team = nullptr;              ///< that divides it
-  const LaunchedTeam* launched = nullptr;   ///< the same, if it is several processes
+  LaunchedTeam* team = nullptr;             ///< processes that divide it; null: this one alone
   std::optional<std::size_t> memory_bytes;  ///< see `place::StoredSearch`
 };
+
+/// The search of a team (null: none) or within `--memory` (empty: not given), to which the process is then
+/// limited; none if the route is searched in memory. Throws `vo::Error` for an amount that is none, and for
+/// one beside a team.
+std::optional<StoredRun> stored_run(LaunchedTeam* team, const std::string& memory);
+
+/// One run by all processes of a team: the first one does `first`, the others serve it. All end together: an
+/// error of one ends the others too, and only the first throws it.
+void run_as_team(LaunchedTeam& team, const std::function<void()>& first, const std::function<void()>& serve);
 
 /// Reads the pictures of the matched keyframes, for the report.
 void read_matched_previews(const std::string& path, const std::vector<place::Match>& matches,

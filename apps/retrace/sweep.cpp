@@ -1,43 +1,20 @@
 #include "benchmark_files.hpp"
 #include "command.hpp"
+#include "sweep_axes.hpp"
 #include "sweep_files.hpp"
 #include "sweep_runs.hpp"
 
-#include <algorithm>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include <vo/base/error.hpp>
 #include <vo/base/parallel.hpp>
 
 namespace retrace {
 namespace {
 
-std::vector<place::SweepAxis> axes_of(const SweepOptions& options) {
-  const bool metres = !options.lengths_m.empty();
-  if (metres && !options.lengths.empty())
-    throw vo::Error("--sequence-length-m", "is given beside --sequence-length", "one of both");
-  std::vector<std::string> lengths = metres ? options.lengths_m : options.lengths;
-  if (lengths.empty()) lengths = {"5", "10", "20", "40"};
-  std::vector<place::SweepAxis> axes{{"motion", options.motions},
-                                     {metres ? "sequence-length-m" : "sequence-length", lengths},
-                                     {"search-range-rad", options.ranges}};
-  for (const std::string& text : options.vary) {
-    axes.push_back(place::parse_axis(text));
-    const auto same = std::ranges::find(axes, axes.back().setting, &place::SweepAxis::setting);
-    if (same != axes.end() - 1)
-      throw vo::Error("--vary " + text, "varies a setting twice",
-                      fmt::format("one list of {}", same->setting));
-  }
-  return axes;
-}
-
 void sweep(const SweepOptions& options) {
   vo::set_thread_count(options.settings.threads.value_or(0));
-  const std::vector<place::SweepAxis> axes = axes_of(options);
+  const std::vector<place::SweepAxis> axes = swept_axes(options);
   place::check_sweep(options.settings, axes, options.equal_keyframes);
   place::check_compared(axes, options.compare);
   const std::vector<PairSweep> pairs = pair_sweeps(options);
@@ -78,20 +55,7 @@ std::function<void()> declare_sweep(Arguments& arguments) {
       arguments.option("--cell", options->cell, "I/N: only the I-th of N parts of the cells, each a process");
   arguments.flag("--merge", options->merge, "put the parts together, when all of them are done")
       .excludes(cell);
-  const auto list = [&](const char* flag, std::vector<std::string>& values, const char* description) {
-    arguments.option(flag, values, description).comma_separated().group("Swept");
-  };
-  list("--motion", options->motions, "sad, steps, hybrid, vo, none: what walks are resampled by");
-  list("--sequence-length", options->lengths, "keyframes on a line [5,10,20,40; SSS 4.2]");
-  list("--sequence-length-m", options->lengths_m, "metres on a line, instead; needs --reference-truth");
-  list("--search-range-rad", options->ranges, "radians either side of pi/4 [SSS Fig. 8]");
-  arguments.option("--vary", options->vary, "NAME=a,b,c: any further setting; may be repeated")
-      .group("Swept");
-  list("--compare", options->compare, "swept settings whose values make the methods that are compared");
-  arguments
-      .flag("--equal-keyframes", options->equal_keyframes,
-            "as many keyframes, within 5 %, in every cell as with none, or else as in the first cell")
-      .group("Swept");
+  declare_swept(arguments, *options);
   using enum place::SettingGroup;
   arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kSearch, kGeneral},
                      {"motion", "sequence-length", "search-range-rad", "compat", "sequence-length-m",

@@ -32,9 +32,7 @@ void video(VideoOptions options) {
   const fs::path folder = options.input.folder, output = options.output;
   if (output.extension() != ".mp4")
     throw vo::Error(options.output, "is no video's name", "a name ending in .mp4");
-  check_writable(output);
-  if (!options.common.force && fs::exists(output))
-    throw vo::Error(options.output, "already exists", "another name, or --force to overwrite");
+  check_new_file(output, options.common.force, "another name");
   std::vector<place::Match> matches = place::read_matches(folder / "matches.csv");
   const RunSummary summary = read_run_summary(folder);
   if (summary.query_frames == 0)
@@ -49,11 +47,7 @@ void video(VideoOptions options) {
   place::locate(matches, route);
   SideVideo side = side_video_of(options.input, route, matches, summary);
   ProgressBar bar;
-  const double rate_hz =
-      write_side_video(output, side, [show = bar.callback()](const vo::Progress& progress) {
-        if (!show(progress)) throw vo::Error(progress.stage, "was interrupted");
-        return true;
-      });
+  const double rate_hz = write_side_video(output, side, bar.whole_or_nothing());
   fmt::print("{}: {} frames at {:.4g} frames/s\n", options.output, side.timeline.size(), rate_hz);
 }
 

@@ -20,13 +20,6 @@
 namespace place {
 namespace {
 
-ResolveContext on(const Route& route, Purpose purpose) {
-  return {.purpose = purpose,
-          .route = &route.settings,
-          .route_has_poses = has_poses(route),
-          .route_has_points = has_view_points(route)};
-}
-
 vo::Walk read_as(std::span<const std::string> sources, const StageOptions& options,
                  const vo::ProgressCallback& progress) {
   vo::Walk walk = vo::read_walk(sources, options.walk, progress);
@@ -132,7 +125,7 @@ vo::Walk read(const std::string& source, const Route& route, const Settings& set
 
 vo::Walk read(std::span<const std::string> sources, const Route& route, const Settings& settings,
               const vo::ProgressCallback& progress) {
-  const ResolveContext context = on(route, Purpose::kLocalise);
+  const ResolveContext context = on_route(route);
   const Settings resolved = resolve(settings, context);
   const StageOptions options = stage_options(resolved, follows_steps(resolved, context));
   return read_as(sources, options, progress);
@@ -144,7 +137,7 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
   const auto old = std::ranges::find(traverses, name, &Traverse::name);
   if (old != traverses.end() && !replace)
     throw vo::Error(name, "is a traverse of the route already", "another name");
-  Settings resolved = resolve(settings, on(route, Purpose::kRoute));
+  Settings resolved = resolve(settings, on_route(route, Purpose::kRoute));
   StageOptions options = stage_options(resolved);
   check_read_with(options, walk);
   std::optional<double> gait_share;
@@ -181,7 +174,7 @@ AddedTraverse add(Route& route, const std::string& name, const vo::Walk& walk,
 
 Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
              const SearchCallback& callback, TraverseSearch* search) {
-  const ResolveContext context = on(route, Purpose::kLocalise);
+  const ResolveContext context = on_route(route);
   Run run;
   run.settings = resolve(settings, context);
   StageOptions options = stage_options(run.settings, follows_steps(run.settings, context));

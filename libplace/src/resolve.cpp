@@ -1,5 +1,7 @@
 #include "place/resolve.hpp"
 
+#include "place/route/route.hpp"
+
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
@@ -109,6 +111,13 @@ void check_together(const Settings& settings) {
 }
 
 }  // namespace
+
+ResolveContext on_route(const Route& route, Purpose purpose) {
+  return {.purpose = purpose,
+          .route = &route.settings,
+          .route_has_poses = has_poses(route),
+          .route_has_points = has_view_points(route)};
+}
 
 bool follows_steps(const Settings& settings, const ResolveContext& context) {
   if (context.purpose == Purpose::kOdometry) return true;

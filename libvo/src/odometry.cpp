@@ -284,4 +284,11 @@ PedestrianMotion without_steps(PedestrianMotion motion, const PedestrianMotionOp
   return motion;
 }
 
+std::optional<double> calibrated_step_length_m(const Walk& walk, double length_m,
+                                               const PedestrianMotionOptions& options) {
+  const double steps = steps_made(pedestrian_motion(walk, options).detection);
+  if (steps == 0) return std::nullopt;
+  return calibrated_step_length_m(length_m, steps);
+}
+
 }  // namespace vo

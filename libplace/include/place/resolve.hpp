@@ -4,6 +4,8 @@
 
 namespace place {
 
+struct Route;
+
 /// The purpose of settings: which groups count, and whether steps are tracked.
 enum class Purpose {
   kRoute,     ///< a walk becomes a traverse: reading, motion, odometry
@@ -19,6 +21,9 @@ struct ResolveContext {
   bool route_has_points = true;     ///< without them `verify` is refused
   bool drop_ineffective = false;  ///< drop settings without effect, not refuse them: for the cells of a sweep
 };
+
+/// The context of a walk on a route, which must outlive it.
+ResolveContext on_route(const Route& route, Purpose purpose = Purpose::kLocalise);
 
 /// All settings that have an effect, with their values, and no others: the given value, else the route's,
 /// else the default. Resolving the result again changes nothing, so a saved result repeats the run.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include <fmt/format.h>
 #include <opencv2/core/cvdef.h>
@@ -142,6 +143,21 @@ void write_npy(const std::filesystem::path& path, std::span<const std::uint8_t> 
 void write_npy(const std::filesystem::path& path, std::span<const std::int8_t> bytes, std::size_t width) {
   if (width == 0 || bytes.size() % width != 0) throw std::invalid_argument("write_npy: whole rows expected");
   write(path, header_of("|i1", bytes.size() / width, width), bytes.data(), bytes.size());
+}
+
+std::size_t write_npy(const std::filesystem::path& path, const Descriptors& descriptors) {
+  if (const auto* images = std::get_if<vo::ImageStack>(&descriptors)) {
+    write_npy(path, images->pixels, images->image_size());
+    return images->image_size();
+  }
+  if (const auto* stack = std::get_if<ColumnStack>(&descriptors)) {
+    write_npy(path, FloatRows{.width = stack->descriptor_size(),
+                              .values = {stack->values.begin(), stack->values.end()}});
+    return stack->descriptor_size();
+  }
+  const auto& rows = std::get<FloatRows>(descriptors);
+  write_npy(path, rows);
+  return rows.width;
 }
 
 }  // namespace place

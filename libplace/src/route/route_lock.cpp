@@ -1,5 +1,7 @@
 #include "place/route/route_lock.hpp"
 
+#include "place/route/route_database.hpp"
+
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -111,10 +113,11 @@ RouteLock::~RouteLock() {
   ::close(descriptor_);
 }
 
-void RouteLock::check_unchanged() const {
-  if (stamp(route_) == stamp_) return;
-  throw vo::Error(route_.string(), "was changed by another program meanwhile",
-                  "no other writer; do the same again");
+void RouteLock::write(const Route& route) const {
+  if (stamp(route_) != stamp_)
+    throw vo::Error(route_.string(), "was changed by another program meanwhile",
+                    "no other writer; do the same again");
+  write_route(route_, route);
 }
 
 }  // namespace place

@@ -138,4 +138,9 @@ PedestrianMotion pedestrian_motion(const Walk& walk, const PedestrianMotionOptio
 /// The same without its steps, for a signal that was not a walker's.
 PedestrianMotion without_steps(PedestrianMotion motion, const PedestrianMotionOptions& options = {});
 
+/// The step length with which the steps of a walk of known length, above 0, add up to it
+/// (`calibrated_step_length_m` of numbers); none if the walk shows no steps. Throws as `pedestrian_motion`.
+std::optional<double> calibrated_step_length_m(const Walk& walk, double length_m,
+                                               const PedestrianMotionOptions& options = {});
+
 }  // namespace vo

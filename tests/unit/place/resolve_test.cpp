@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <place/resolve.hpp>
+#include <place/route/route.hpp>
 #include <place/stage_options.hpp>
 #include <vo/base/error.hpp>
 
@@ -468,6 +469,23 @@ TEST(Resolve, AFileWithoutAUnitIsSampledByEq4) {
   expect_refused(settings, {}, "spacing-m: has no effect: motion-file-unit is none");
   settings.motion_file_unit.reset();
   EXPECT_TRUE(place::stage_options(place::resolve(settings, {})).motion_file_fit.metric);
+}
+
+TEST(Resolve, KnowsWhatARouteHas) {
+  place::Route route;
+  route.settings.descriptor = "hog";
+  Settings verifies;
+  verifies.verify = 5;
+  EXPECT_EQ(place::resolve({}, place::on_route(route)).descriptor, "hog");
+  expect_refused(verifies, place::on_route(route), "verify");  // no points to check with
+  place::Traverse& traverse = route.traverses.emplace_back();
+  traverse.view_points.emplace_back();
+  EXPECT_EQ(place::resolve(verifies, place::on_route(route)).verify, 5);
+  EXPECT_FALSE(place::follows_steps({}, place::on_route(route)));
+  traverse.keyframes.emplace_back().pose = vo::Pose2{};
+  const ResolveContext with_poses = place::on_route(route);
+  EXPECT_TRUE(place::follows_steps({}, with_poses));
+  EXPECT_EQ(place::on_route(route, Purpose::kRoute).purpose, Purpose::kRoute);
 }
 
 }  // namespace

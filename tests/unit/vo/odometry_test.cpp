@@ -310,6 +310,18 @@ TEST(PedestrianMotion, CountsStepsAndWalksThem) {
   EXPECT_EQ(motion.activity[5].activity, vo::Activity::kWalking);
 }
 
+TEST(CalibratedStepLength, MakesAWalkAsLongAsItIs) {
+  const vo::Walk walk = tracked_walk(0.5, 0);
+  const std::optional<double> length_m = vo::calibrated_step_length_m(walk, 15);
+  ASSERT_TRUE(length_m);
+  EXPECT_NEAR(*length_m, 15.0 / 20, 1e-9);  // twenty steps
+  vo::PedestrianMotionOptions options;
+  options.step_length.length_m = *length_m;
+  EXPECT_NEAR(vo::pedestrian_motion(walk, options).trajectory.at_frame.back().pose.y_m, 15, 1e-9);
+  EXPECT_FALSE(vo::calibrated_step_length_m(tracked_walk(0, 0), 15));  // no steps
+  EXPECT_THROW(vo::calibrated_step_length_m(walk, 0), std::invalid_argument);
+}
+
 TEST(PedestrianMotion, ReadsStepsFromTheShiftWhereTheHorizonIsSteady) {
   const vo::PedestrianMotion motion = vo::pedestrian_motion(tracked_walk(0, 3));
   EXPECT_EQ(motion.step_signal, vo::StepSignal::kShift);

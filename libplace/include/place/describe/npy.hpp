@@ -1,7 +1,9 @@
 #pragma once
 
+#include "place/describe/descriptor.hpp"
 #include "place/describe/float_rows.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -18,5 +20,9 @@ FloatRows read_npy(const std::filesystem::path& path);
 void write_npy(const std::filesystem::path& path, const FloatRows& rows);
 void write_npy(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::size_t width);
 void write_npy(const std::filesystem::path& path, std::span<const std::int8_t> bytes, std::size_t width);
+
+/// Writes descriptors, a row for each: pixels as uint8, columns and floats as float32. Returns the numbers in
+/// a row. Throws as the others.
+std::size_t write_npy(const std::filesystem::path& path, const Descriptors& descriptors);
 
 }  // namespace place

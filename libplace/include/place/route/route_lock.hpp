@@ -1,5 +1,7 @@
 #pragma once
 
+#include "place/route/route.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -20,7 +22,7 @@ struct RouteLockOptions {
 ///
 /// It is a system lock on a hidden file next to the route (`flock` on `.route.db.lock`), which is released
 /// when the process that holds it ends in any way; the file is removed with the lock, and one left behind by
-/// a dead process blocks nobody. On file systems without locks, `check_unchanged` still protects. Readers
+/// a dead process blocks nobody. On file systems without locks, `write` still notices the other. Readers
 /// need no lock: a route's file is replaced whole.
 class RouteLock {
  public:
@@ -31,9 +33,9 @@ class RouteLock {
   RouteLock(const RouteLock&) = delete;
   RouteLock& operator=(const RouteLock&) = delete;
 
-  /// Throws `vo::Error` if the route's file was replaced since the lock was taken, by a program that ignores
-  /// the lock or on a file system without locks. Call it right before writing.
-  void check_unchanged() const;
+  /// Writes the route (`write_route`), once. Throws `vo::Error` if its file was replaced since the lock was
+  /// taken, by a program that ignores the lock or on a file system without locks.
+  void write(const Route& route) const;
 
  private:
   /// Distinguishes a file from its replacement.

@@ -57,6 +57,21 @@ TEST_F(Npy, ReadsWhatItWrites) {
   EXPECT_THAT(read_npy(folder_ / "i.npy").values, ElementsAre(-128, -1, 0, 127));
 }
 
+TEST_F(Npy, WritesDescriptorsOfEveryKind) {
+  const place::Descriptors images = vo::ImageStack{.width = 2, .height = 1, .pixels = {1, 2, 3, 255}};
+  EXPECT_EQ(write_npy(folder_ / "i.npy", images), 2U);
+  EXPECT_THAT(read_npy(folder_ / "i.npy").values, ElementsAre(1, 2, 3, 255));
+  EXPECT_NE(test_support::read_file(folder_ / "i.npy").find("|u1"), std::string::npos);
+  const place::Descriptors columns =
+      place::ColumnStack{.columns = 1, .channels = 3, .values = {-128, 0, 127}};
+  EXPECT_EQ(write_npy(folder_ / "c.npy", columns), 3U);
+  EXPECT_THAT(read_npy(folder_ / "c.npy").values, ElementsAre(-128, 0, 127));
+  EXPECT_NE(test_support::read_file(folder_ / "c.npy").find("<f4"), std::string::npos);
+  const place::Descriptors floats = FloatRows{.width = 1, .values = {0.5F, 1}};
+  EXPECT_EQ(write_npy(folder_ / "f.npy", floats), 1U);
+  EXPECT_THAT(read_npy(folder_ / "f.npy").values, ElementsAre(0.5, 1));
+}
+
 TEST_F(Npy, NoRowsAreNone) {
   write_npy(folder_ / "e.npy", FloatRows{.width = 5, .values = {}});
   EXPECT_EQ(read_npy(folder_ / "e.npy").size(), 0U);

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <place/route/route_database.hpp>
 #include <place/route/route_lock.hpp>
 #include <vo/base/error.hpp>
 
@@ -90,14 +91,25 @@ TEST(RouteLock, SeesThatTheRouteWasReplaced) {
   const TemporaryFolder folder;
   const auto route = folder.write("route.db", "one");
   const place::RouteLock lock(route);
-  EXPECT_NO_THROW(lock.check_unchanged());
   folder.write("new", "two");
   std::filesystem::rename(folder / "new", route);  // by a program that knows nothing of the lock
-  EXPECT_THROW_WITH(lock.check_unchanged(), vo::Error, "route.db: was changed by another program meanwhile");
+  EXPECT_THROW_WITH(lock.write({}), vo::Error, "route.db: was changed by another program meanwhile");
+  EXPECT_EQ(test_support::read_file(route), "two");
   const place::RouteLock first(folder / "first.db");  // a route that is not there yet
-  EXPECT_NO_THROW(first.check_unchanged());
   folder.write("first.db", "x");
-  EXPECT_THROW(first.check_unchanged(), vo::Error);
+  EXPECT_THROW(first.write({}), vo::Error);
+}
+
+TEST(RouteLock, WritesARouteThatNobodyElseChanged) {
+  const TemporaryFolder folder;
+  const auto file = folder / "route.db";
+  place::Route route;
+  route.unit = 0.5;
+  place::RouteLock(file).write(route);
+  EXPECT_EQ(place::read_route(file).unit, 0.5);
+  route.unit = 2;
+  place::RouteLock(file).write(route);
+  EXPECT_EQ(place::read_route(file).unit, 2);
 }
 
 TEST(RouteLock, SaysWhyItCannotBeTaken) {
