@@ -9,9 +9,9 @@
 namespace retrace {
 namespace {
 
-/// True for what does not wait for a slow reader.
+/// True for what does not wait for a slow reader, as standard input does.
 bool does_not_wait(const std::string& walk) {
-  return walk.starts_with("camera:") || walk.starts_with("rtsp://");
+  return vo::is_live(walk) && walk != "-";
 }
 
 }  // namespace

@@ -76,6 +76,17 @@ TEST(FollowedSource, OfACameraSkipsWhatCameMeanwhile) {
   EXPECT_FALSE(source.next());
 }
 
+TEST(FollowedSource, OnlyStandardInputWaitsOfWhatIsLive) {
+  FollowedSource input("-", std::make_unique<ThreeFrames>());
+  EXPECT_THAT(frames_of(input), ElementsAre(0, 1, 2));
+  EXPECT_NO_THROW(input.check_end());
+  for (const char* const stream : {"rtsp://camera/1", "rtsps://camera/1"}) {
+    FollowedSource source(stream, std::make_unique<ThreeFrames>());
+    frames_of(source);
+    EXPECT_THROW_WITH(source.check_end(), vo::Error, std::string(stream) + ": sent no picture");
+  }
+}
+
 TEST(FollowedSource, EndsWhereACameraHangs) {
   std::promise<void> done;
   FollowedSource source("camera:0", std::make_unique<ThreeFrames>([&] { done.get_future().wait(); }), 0.01);
