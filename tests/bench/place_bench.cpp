@@ -1,5 +1,7 @@
+#include "dot_limit.hpp"
 #include "match/kernels/absolute_difference.hpp"
 #include "sad_limit.hpp"
+#include "support/random_columns.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -13,6 +15,7 @@
 #include <place/match/contrast_enhancement.hpp>
 #include <place/match/cost_matrix.hpp>
 #include <place/match/sequence_search.hpp>
+#include <place/match/shifted_cosine.hpp>
 #include <place/match/streamed_search.hpp>
 #include <place/route/route_database.hpp>
 #include <vo/base/parallel.hpp>
@@ -32,6 +35,12 @@ vo::ImageStack random_descriptors(std::size_t count, std::uint64_t seed) {
     std::memcpy(&stack.pixels[i], &eight, sizeof eight);
   }
   return stack;
+}
+
+/// The default descriptor's form.
+place::ColumnStack blocks(std::size_t count, std::uint64_t seed) {
+  constexpr int kColumns = 8, kChannels = 128, kMost = 63;
+  return test_support::random_columns(kColumns, kChannels, count, kMost, seed);
 }
 
 /// A benchmark's two walks: its first two arguments are how many keyframes they have.
@@ -71,6 +80,27 @@ BENCHMARK(cost_matrix)
     ->Args({3576, 3576, 2})
     ->Args({100, 100000, 1})
     ->Args({100, 100000, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+
+BENCHMARK(bench::dot_limit)->Name("dot_limit")->Unit(benchmark::kMillisecond);
+
+/// The same of the default descriptor, five shifts.
+void column_matrix(benchmark::State& state) {
+  vo::set_thread_count(static_cast<int>(state.range(2)));
+  const place::ColumnStack query = blocks(static_cast<std::size_t>(state.range(0)), 1);
+  const place::ColumnStack reference = blocks(static_cast<std::size_t>(state.range(1)), 2);
+  const place::ShiftedCosine source(query, reference);
+  place::CostMatrix matrix = place::make_cost_matrix(query.size(), reference.size());
+  for (auto _ : state) {
+    source.compute(place::block_of(matrix));
+    benchmark::DoNotOptimize(matrix.values.data());
+  }
+}
+BENCHMARK(column_matrix)
+    ->Args({3576, 3576, 1})
+    ->Args({3576, 3576, 2})
+    ->Args({100, 100000, 1})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
 
@@ -233,13 +263,21 @@ BENCHMARK_CAPTURE(search_streamed, nothing_kept, 0)
 // ---- The database ----
 
 /// Opening a route, pictures left in the file. Argument: keyframes.
+/// As `build` writes it by default: columns of blocks, and a thumbnail beside the preview.
 void open_route(benchmark::State& state) {
   const auto keyframes = static_cast<std::size_t>(state.range(0));
   place::Traverse traverse;
+  traverse.name = "walk";
+  traverse.descriptors.emplace_back(blocks(keyframes, 1));
   traverse.thumbnails = random_descriptors(keyframes, 1);
-  traverse.keyframes.resize(keyframes);
+  for (std::size_t i = 0; i < keyframes; ++i) {
+    const auto place = static_cast<double>(i);
+    traverse.keyframes.push_back(
+        {.frame = static_cast<std::int64_t>(i), .time_s = place, .displacement = place});
+  }
   place::Route route;
   route.traverses.push_back(std::move(traverse));
+  route.learned.resize(1);
   const auto path = std::filesystem::temp_directory_path() / "retrace-place-bench.db";
   place::write_route(path, route);
   for (auto _ : state)
