@@ -115,6 +115,12 @@ Survey survey_of(TimedPath path, const vo::Walk& walk, const SurveyOptions& opti
                                 "shows at the first frame (--trajectory-start-s, --track-start-s)",
                                 offset_s, offset_s + duration_s(walk)));
   }
+  const auto posed = static_cast<std::size_t>(
+      std::ranges::count_if(survey.pose, [](const auto& pose) { return pose.has_value(); }));
+  if (2 * posed < walk.frames()) {
+    path.warnings.push_back(fmt::format("{}: has poses at {} of {} frames; the others have none",
+                                        path.file.string(), posed, walk.frames()));
+  }
   survey.warnings = std::move(path.warnings);
   return survey;
 }
@@ -135,6 +141,12 @@ Survey survey_from_truth(const std::filesystem::path& path, const vo::Walk& walk
   if (truth.frame.size() != walk.frames()) {
     throw vo::Error(path.string(), fmt::format("has {} rows", truth.frame.size()),
                     fmt::format("{}, one for each frame of {}", walk.frames(), walk.source));
+  }
+  constexpr double kOtherUnit = 100;  // times as long as the walk; slow motion is 8 times, at most
+  const double length_s = truth.time_s.back() - truth.time_s.front();
+  if (length_s > kOtherUnit * duration_s(walk)) {
+    throw vo::Error(path.string(), fmt::format("has times over {:.10g} s", length_s),
+                    fmt::format("seconds: {} lasts {:.3f} s", walk.source, duration_s(walk)));
   }
   Survey survey{.source = path.filename().string(), .surveyed = true, .pose = {}, .distance_m = {}};
   for (std::size_t i = 0; i < walk.frames(); ++i) {

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <pugixml.hpp>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <vo/io/frame_source.hpp>
 #include <vo/io/picture_tags.hpp>
 #include <vo/io/text_file.hpp>
+#include <vo/io/time_unit.hpp>
 #include <vo/io/video_positions.hpp>
 
 namespace place {
@@ -213,14 +215,45 @@ bool begins_as_xml(const std::filesystem::path& path) {
   return false;
 }
 
+/// Brings the times of a CSV file to seconds, and clocks that count from 1970 to its first point.
+void take_seconds(GeographicTrack& track, const std::string& path) {
+  double length_m = 0;
+  for (std::size_t i = 1; i < track.points.size(); ++i) {
+    const GeographicOrigin before{track.points[i - 1].latitude_deg, track.points[i - 1].longitude_deg};
+    const vo::Pose2 step = local_at(before, track.points[i]);
+    length_m += std::hypot(step.x_m, step.y_m);
+  }
+  const vo::TimeUnit unit = vo::time_unit(track.time_s, length_m);
+  if (!unit.name.empty())
+    track.warnings.push_back(fmt::format("{}: times in {}, converted to seconds", path, unit.name));
+  for (double& time_s : track.time_s) time_s /= unit.per_second;
+  constexpr double kSince1970_s = 1e9;
+  if (track.time_s.front() < kSince1970_s) return;
+  track.start_utc_s = track.time_s.front();
+  for (double& time_s : track.time_s) time_s -= *track.start_utc_s;
+}
+
+/// The first of a column's names that the table has; the first of all if it has none.
+std::string_view column(const vo::CsvTable& table, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names)
+    if (table.has(name)) return name;
+  return *names.begin();
+}
+
 GeographicTrack read_csv(const std::filesystem::path& path, const TrackOptions& options) {
   if (!options.track_name.empty())
     throw vo::Error(path.string(), "is no GPX file",
                     "no --track-name, which chooses among a GPX file's tracks");
   const vo::CsvTable table = vo::CsvTable::read(path, vo::UnevenRows::kLeaveOut);
-  const auto time_s = table.numbers_where_they_are("time_s");
-  const auto latitude_deg = table.numbers_where_they_are(table.has("lat_deg") ? "lat_deg" : "latitude_deg");
-  const auto longitude_deg = table.numbers_where_they_are(table.has("lon_deg") ? "lon_deg" : "longitude_deg");
+  const std::string_view time = column(table, {"time_s", "time", "timestamp"});
+  const auto times = table.text(time);
+  auto time_s = table.numbers_where_they_are(time);
+  for (std::size_t i = 0; i < time_s.size(); ++i)
+    if (!time_s[i]) time_s[i] = vo::parse_iso_time(times[i]);
+  const auto latitude_deg =
+      table.numbers_where_they_are(column(table, {"latitude_deg", "lat_deg", "latitude", "lat"}));
+  const auto longitude_deg =
+      table.numbers_where_they_are(column(table, {"longitude_deg", "lon_deg", "longitude", "lon", "lng"}));
   FileTrack track{.all = table.rows() + table.left_out(), .without_place = table.left_out()};
   for (std::size_t i = 0; i < table.rows(); ++i) {
     if (!latitude_deg[i] || !longitude_deg[i] || !on_earth({*latitude_deg[i], *longitude_deg[i]})) {
@@ -232,7 +265,9 @@ GeographicTrack read_csv(const std::filesystem::path& path, const TrackOptions& 
     }
   }
   std::ranges::stable_sort(track.points, {}, &FilePoint::time_s);
-  return in_order(track, path.string(), {});
+  GeographicTrack read = in_order(track, path.string(), {});
+  take_seconds(read, path.string());
+  return read;
 }
 
 /// The track that a camera recorded within its video.

@@ -17,11 +17,28 @@
 namespace vo {
 namespace {
 
+/// Where a single quote closes the cell that began with one: no other follows it, and the cell ends there.
+/// `npos` if none does, as in "'t Hoekje".
+std::size_t closing_quote(std::string_view line, std::size_t begin, char separator) {
+  for (std::size_t i = begin; i < line.size(); ++i) {
+    if (line[i] != '\'') continue;
+    if (i + 1 < line.size() && line[i + 1] == '\'') {
+      ++i;
+      continue;
+    }
+    const std::size_t next = line.find_first_not_of(separator == '\t' ? " \r" : " \t\r", i + 1);
+    if (next == std::string_view::npos || line[next] == separator) return i;
+  }
+  return std::string_view::npos;
+}
+
 /// Appends the cells of a line, without the quotes around them. Quotes are taken out in place: a cell is
 /// never longer than what is written for it.
 void split(std::span<char> line, char separator, std::vector<std::string_view>& cells) {
-  std::size_t begin = 0, end = 0;  // of a cell
-  bool quoted = false, blank = true;
+  std::size_t begin = 0, end = 0;    // of a cell
+  bool blank = true, single = true;  // the cell so far; whether single quotes may still close
+  char quote = 0;                    // that the cell is in
+  std::size_t closes = 0;            // where a single one does
   const auto put = [&](char c) {
     line[end++] = c;
     blank = blank && trimmed({&c, 1}).empty();
@@ -31,18 +48,25 @@ void split(std::span<char> line, char separator, std::vector<std::string_view>& 
     begin = end;
     blank = true;
   };
+  const auto opens_single_quote = [&](std::size_t i) {
+    closes = closing_quote({line.data(), line.size()}, i + 1, separator);
+    single = closes != std::string_view::npos;  // later ones close no sooner
+    return single;
+  };
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+    if (quote != 0 && c == quote && i + 1 < line.size() && line[i + 1] == quote) {
       put(line[++i]);  // a doubled quote is one of the cell's
-    } else if (quoted) {
-      if (c == '"') {
-        quoted = false;
+    } else if (quote != 0) {
+      if (c == quote && (quote == '"' || i == closes)) {
+        quote = 0;
       } else {
         put(c);
       }
     } else if (c == '"' && blank) {
-      quoted = true;
+      quote = c;
+    } else if (c == '\'' && blank && single && opens_single_quote(i)) {
+      quote = c;
     } else if (c == separator) {
       finish();
     } else {
@@ -140,6 +164,8 @@ CsvTable CsvTable::read(const std::filesystem::path& path, UnevenRows uneven) {
   };
   table.header_.reserve(cells_in(lines[0].text));
   split(line_of(lines[0]), separator, table.header_);
+  std::string_view& name = table.header_.front();  // EuRoC's `#` within a spreadsheet's quotes
+  if (name.starts_with('#')) name = trimmed(name.substr(1));
   const std::size_t columns = table.header_.size();
   std::size_t most = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) most += cells_in(lines[i].text);
@@ -198,7 +224,8 @@ std::string CsvTable::where(std::size_t row) const {
 
 std::string CsvTable::no_value(std::string_view column, std::size_t row) const {
   const std::string_view cell = cell_at(row, column_index(column));
-  return cell.empty() ? fmt::format("{} is empty", column) : fmt::format("{} is '{}'", column, cell);
+  return cell.empty() ? fmt::format("{} is empty", column)
+                      : fmt::format("{} is '{}'", column, printable(cell));
 }
 
 std::vector<std::string> CsvTable::text(std::string_view column) const {
@@ -217,7 +244,7 @@ std::vector<std::optional<double>> CsvTable::optional_numbers(std::string_view c
     const std::string_view cell = cell_at(row, index);
     values.push_back(parse_number(cell, decimal_commas_));
     if (!values.back() && !says_unknown(cell))
-      throw Error(where(row), fmt::format("{} is '{}'", column, cell), "a finite number");
+      throw Error(where(row), fmt::format("{} is '{}'", column, printable(cell)), "a finite number");
   }
   return values;
 }
@@ -266,7 +293,7 @@ std::vector<std::int64_t> CsvTable::indices(std::string_view column) const {
 
 std::string csv_cell(std::string_view text) {
   const bool plain = text.find_first_of(",;\t\"#\r\n") == std::string_view::npos && !text.starts_with(' ') &&
-                     !text.ends_with(' ');
+                     !text.ends_with(' ') && !text.starts_with('\'');
   if (plain) return std::string(text);
   std::string cell = "\"";
   for (const char c : text) cell.append(c == '"' ? 2 : 1, c);

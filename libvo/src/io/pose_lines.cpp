@@ -21,9 +21,12 @@ std::string_view take_cell(std::string_view& text) {
   return cell;
 }
 
-bool is_name(std::string_view cell) {
+bool is_name(std::string_view quoted) {
+  const std::string_view cell = without_quotes(quoted);
+  if (cell.empty()) return false;
   const char first = cell.front();
-  const bool letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '"';
+  const bool letter =
+      (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '"' || first == '\'';
   return letter && cell != "nan" && cell != "NaN" && cell != "inf";
 }
 
@@ -53,7 +56,7 @@ NumberFile read_number_lines(const std::filesystem::path& path, std::string_view
     NumberLine& numbers =
         file.lines.emplace_back(NumberLine{.number = line.number, .wrong = {}, .values = {}});
     for (std::string_view cell = take_cell(rest); !cell.empty(); cell = take_cell(rest)) {
-      const std::optional<double> value = parse_number(cell);
+      const std::optional<double> value = parse_number(without_quotes(cell));
       if (!value) {
         numbers.wrong = cell;
         break;

@@ -2,6 +2,8 @@
 
 #include "vo/io/csv.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -28,7 +30,19 @@ struct PoseColumns {
   std::vector<std::optional<double>> time, x, y, z, qx, qy, qz, qw, heading_deg;
 };
 
-PoseColumns pose_columns(const CsvTable& table, bool& nanoseconds) {
+/// A column of times whose name says what they are in.
+struct TimeColumn {
+  std::string_view name;
+  TimeUnit unit;
+};
+constexpr std::array kTimeColumns{
+    TimeColumn{"timestamp [ns]", kNanoseconds},  TimeColumn{"timestamp_ns", kNanoseconds},
+    TimeColumn{"time_ns", kNanoseconds},         TimeColumn{"timestamp [us]", kMicroseconds},
+    TimeColumn{"timestamp_us", kMicroseconds},   TimeColumn{"time_us", kMicroseconds},
+    TimeColumn{"timestamp [ms]", kMilliseconds}, TimeColumn{"timestamp_ms", kMilliseconds},
+    TimeColumn{"time_ms", kMilliseconds}};
+
+PoseColumns pose_columns(const CsvTable& table, std::optional<TimeUnit>& unit) {
   const auto needed = [&](std::initializer_list<std::string_view> names) {
     const std::string_view name = column(table, names);
     return table.numbers_where_they_are(name.empty() ? *names.begin() : name);
@@ -37,8 +51,10 @@ PoseColumns pose_columns(const CsvTable& table, bool& nanoseconds) {
     const std::string_view name = column(table, names);
     return name.empty() ? std::vector<std::optional<double>>() : table.numbers_where_they_are(name);
   };
-  nanoseconds = !column(table, {"timestamp [ns]", "timestamp_ns", "time_ns"}).empty();
-  return {.time = needed({"time_s", "timestamp", "timestamp [ns]", "timestamp_ns", "time_ns", "time", "t"}),
+  const auto named = std::ranges::find_if(kTimeColumns, [&](const auto& c) { return table.has(c.name); });
+  const bool seconds = !column(table, {"time_s", "timestamp"}).empty();
+  if (named != kTimeColumns.end() && !seconds) unit = named->unit;
+  return {.time = unit ? needed({named->name}) : needed({"time_s", "timestamp", "time", "t"}),
           .x = needed({"x_m", "tx", "x", "p_RS_R_x [m]"}),
           .y = needed({"y_m", "ty", "y", "p_RS_R_y [m]"}),
           .z = wanted({"z_m", "tz", "z", "p_RS_R_z [m]"}),
@@ -106,7 +122,7 @@ Reading read_pose_csv(const std::filesystem::path& path, std::optional<FoundAxes
     reading.first_where = path.string();
     reading.first_problem = fmt::format("has rows of another length than its header");
   }
-  const PoseColumns c = pose_columns(table, reading.nanoseconds);
+  const PoseColumns c = pose_columns(table, reading.unit);
   const bool turned = !c.qx.empty() && !c.qy.empty() && !c.qz.empty() && !c.qw.empty();
   const bool headed = !turned && !c.heading_deg.empty();
   if (headed) axes = {BodyAxes::kVehicle, GroundPlane::kXY};

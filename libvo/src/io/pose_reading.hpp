@@ -2,6 +2,7 @@
 
 #include "io/pose_lines.hpp"
 #include "vo/base/pose3.hpp"
+#include "vo/io/time_unit.hpp"
 #include "vo/io/trajectory_axes.hpp"
 
 #include <cstddef>
@@ -27,7 +28,7 @@ struct Reading {
   std::size_t left_out = 0;
   std::string first_where, first_problem;  ///< of the lines left out
   std::size_t rescaled = 0;                ///< quaternions that were not of length 1
-  bool nanoseconds = false;                ///< the column of times says so
+  std::optional<TimeUnit> unit;            ///< of times, if their column says so
 
   void leave_out(std::string where, std::string problem) {
     if (left_out++ == 0) {

@@ -3,9 +3,9 @@
 #include "io/pose_lines.hpp"
 #include "io/pose_reading.hpp"
 #include "vo/base/error.hpp"
-#include "vo/base/median.hpp"
 #include "vo/io/csv.hpp"
 #include "vo/io/text_file.hpp"
+#include "vo/io/time_unit.hpp"
 #include "vo/io/trajectory_axes.hpp"
 
 #include <algorithm>
@@ -35,32 +35,21 @@ void add_times(Reading& reading, const std::filesystem::path& path) {
   for (FilePose& pose : reading.poses) pose.time = file.lines[pose.frame].values[0];
 }
 
-/// What a file's times are in, as their size says it: poses are a thousandth of a second to a minute apart,
-/// and clocks that count from 1970 have passed 1.4e9 s.
-struct TimeUnit {
-  double per_second = 1;
-  std::string_view name;
-};
-
-TimeUnit time_unit(const Reading& reading) {
-  constexpr TimeUnit kNano{1e9, "nanoseconds"}, kMicro{1e6, "microseconds"}, kMilli{1e3, "milliseconds"};
-  if (reading.nanoseconds) return kNano;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < reading.poses.size(); ++i)
-    steps.push_back(std::abs(reading.poses[i].time - reading.poses[i - 1].time));
-  const double step = steps.empty() ? 0 : median(std::move(steps));
-  const double latest = reading.poses.back().time;
-  if (latest >= 1e17) return kNano;
-  if (latest >= 1e14) return kMicro;
-  if (step >= 1e6) return kNano;  // before milliseconds since 1970: an hour in nanoseconds is 3.6e12
-  if (latest >= 1e11) return kMilli;
-  if (step >= 1e3) return kMicro;
-  return {};
+/// What a file's times are in, as a column's name or their size says it.
+TimeUnit unit_of(const Reading& reading) {
+  if (reading.unit) return *reading.unit;
+  std::vector<double> times;
+  double length = 0;
+  for (std::size_t i = 0; i < reading.poses.size(); ++i) {
+    times.push_back(reading.poses[i].time);
+    if (i > 0) length += cv::norm(reading.poses[i].pose.position - reading.poses[i - 1].pose.position);
+  }
+  return time_unit(times, length);
 }
 
 /// Sorts by time and leaves out what has a time that is there already.
 void put_in_order(Reading& reading, PoseSeries& series, const std::string& name) {
-  const TimeUnit unit = time_unit(reading);
+  const TimeUnit unit = unit_of(reading);
   if (!unit.name.empty())
     series.warnings.push_back(fmt::format("{}: times in {}, converted to seconds", name, unit.name));
   std::size_t unsorted = 0;
@@ -106,11 +95,12 @@ bool is_csv(const std::filesystem::path& path) {
     const bool separated = text.find_first_of(",;\t") != std::string_view::npos;
     if (text.empty()) continue;
     if (text.starts_with('#')) {
-      if (separated && text.starts_with("#timestamp")) return true;
+      const std::size_t name = text.find_first_not_of("# '\"");
+      if (separated && text.substr(std::min(name, text.size())).starts_with("timestamp")) return true;
       continue;
     }
     const std::string_view first = text.substr(0, text.find_first_of(",;\t "));
-    return separated && !parse_number(first) && first != "nan" && first != "NaN";
+    return separated && !parse_number(without_quotes(first)) && first != "nan" && first != "NaN";
   }
   return false;
 }

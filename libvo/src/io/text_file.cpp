@@ -52,6 +52,16 @@ std::vector<char> from_utf16(std::string_view bytes, bool big_endian) {
   return text;
 }
 
+/// True if every other of the first bytes is zero, from `first` on, and no other is: UTF-16 of Latin text
+/// without a byte order mark.
+bool every_other_is_zero(std::string_view bytes, std::size_t first) {
+  constexpr std::size_t kLookedAt = 64;
+  const std::string_view begin = bytes.substr(0, std::min(kLookedAt, bytes.size() / 2 * 2));
+  for (std::size_t i = 0; i < begin.size(); ++i)
+    if ((begin[i] == '\0') != (i % 2 == first)) return false;
+  return begin.size() >= 4;
+}
+
 /// The text of a file in UTF-8, by its byte order mark.
 std::vector<char> decoded(std::vector<char> bytes) {
   const std::string_view all(bytes.data(), bytes.size());
@@ -61,6 +71,8 @@ std::vector<char> decoded(std::vector<char> bytes) {
   }
   if (all.starts_with("\xFF\xFE")) return from_utf16(all.substr(2), false);
   if (all.starts_with("\xFE\xFF")) return from_utf16(all.substr(2), true);
+  for (const std::size_t zero : {1U, 0U})
+    if (every_other_is_zero(all, zero)) return from_utf16(all, zero == 0);
   return bytes;
 }
 
@@ -106,6 +118,12 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(kSpace);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+std::string_view without_quotes(std::string_view text) {
+  const bool quoted =
+      text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
 std::string printable(std::string_view text) {

@@ -4,7 +4,9 @@
 #include "vo/base/error.hpp"
 #include "vo/io/csv.hpp"
 #include "vo/io/pose_series_io.hpp"
+#include "vo/io/time_unit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +18,25 @@ namespace {
 /// Headings turn clockwise from +y, yaw counter-clockwise from +x.
 double yaw_from_heading(double heading_rad) {
   return std::numbers::pi / 2 - heading_rad;
+}
+
+/// Refuses times that are not in seconds, as the distances between them say it.
+void check_seconds(const WalkTruth& truth, const std::string& path) {
+  constexpr double kHour_s = 3600;  // pictures may be taken one by one
+  double length_m = 0;
+  const Pose2* before = nullptr;
+  for (const std::optional<Pose2>& pose : truth.pose) {
+    if (pose && before != nullptr) length_m += std::hypot(pose->x_m - before->x_m, pose->y_m - before->y_m);
+    if (pose) before = &*pose;
+  }
+  const std::vector<double> along_m = distances_between(truth);
+  if (!along_m.empty()) length_m = std::max(length_m, along_m.back() - along_m.front());
+  const TimeUnit unit = time_unit(truth.time_s, length_m, kHour_s);
+  if (unit.name.empty()) return;
+  throw Error(path,
+              fmt::format("has times in {}, as it seems: {:.0f} m from {:.10g} to {:.10g}", unit.name,
+                          length_m, truth.time_s.front(), truth.time_s.back()),
+              "time_s in seconds");
 }
 
 }  // namespace
@@ -53,6 +74,7 @@ WalkTruth read_truth(const std::filesystem::path& path) {
         known ? std::optional(Pose2{*x_m[i], *y_m[i], wrap_angle_rad(*heading_deg[i] * kRadPerDeg)})
               : std::nullopt);
   }
+  check_seconds(truth, path.string());
   return truth;
 }
 

@@ -31,9 +31,11 @@ struct TrackOptions {
 
 /// Reads a track: a GPX file, recognised by its ending or its first character, a video of a GoPro (.mp4,
 /// .mov, .lrv, .360: `vo::read_video_positions`), a folder of pictures with positions in their EXIF data
-/// (`vo::read_picture_tags`; pictures without one are left out), or a CSV file with columns time_s,
-/// latitude_deg (or lat_deg), longitude_deg (or lon_deg). Times of the last three are used unchanged, since
-/// the first frame.
+/// (`vo::read_picture_tags`; pictures without one are left out), or a CSV file with columns time_s
+/// (or time, timestamp, in seconds or ISO 8601), latitude_deg (or lat_deg, latitude, lat) and longitude_deg
+/// (or lon_deg, longitude, lon, lng). Times of the last three are since the first frame; those of a CSV file
+/// in milliseconds or finer are converted (`vo::time_unit`), and if they count from 1970, they are since its
+/// first point.
 ///
 /// In a GPX file every `trkpt` with a place and a time counts, in any encoding, name space prefix or time
 /// zone; segments are sorted by time. Points without place (0, 0 is none) or time, out of order within a

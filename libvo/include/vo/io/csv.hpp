@@ -21,7 +21,8 @@ class CsvTable {
  public:
   /// Reads a file as programs and spreadsheets write it [RFC 4180 and what is done beside it]: one header
   /// line of column names, then rows of as many cells. Cells are separated by commas, semicolons or tabs,
-  /// whichever the header has most of; a cell in double quotes may hold separators, and quotes doubled.
+  /// whichever the header has most of; a cell in double or single quotes may hold separators, and its quotes
+  /// doubled; an apostrophe that no other closes at the cell's end is one of the cell's.
   /// Spaces around a cell, blank lines, rows of empty cells, lines that begin with `#`, Excel's `sep=;`, byte
   /// order marks and any ends of lines are skipped. A `#` line whose names stand over as many numbers is
   /// the header (EuRoC's files). Throws `vo::Error` naming the file and line if it cannot be read, has no
@@ -75,7 +76,7 @@ class CsvTable {
 std::optional<double> parse_number(std::string_view text, bool decimal_commas = false);
 
 /// A text as a cell that reads back as the same: in double quotes where it holds a separator, a quote, a `#`,
-/// a line break, or spaces at an end [RFC 4180].
+/// a line break, or spaces at an end, or begins with an apostrophe [RFC 4180].
 std::string csv_cell(std::string_view text);
 
 }  // namespace vo

@@ -19,13 +19,16 @@ struct TextFile {
   std::vector<TextLine> lines;
 };
 
-/// Reads a text file as people's programs write it: UTF-8 with or without a byte order mark, or UTF-16 with
-/// one (spreadsheets' "Unicode text"); lines ended by LF, CR LF or CR. `expected` says in an error what the
+/// Reads a text file as people's programs write it: UTF-8, or UTF-16 (spreadsheets' "Unicode text"), with or
+/// without a byte order mark; lines ended by LF, CR LF or CR. `expected` says in an error what the
 /// file should have been. Throws `vo::Error` naming the file if it is missing, a folder, or cannot be read.
 TextFile read_text_file(const std::filesystem::path& path, std::string_view expected);
 
 /// The text without white space at both ends.
 std::string_view trimmed(std::string_view text);
+
+/// The text without the quotes around it, single or double, if it has both.
+std::string_view without_quotes(std::string_view text);
 
 /// The beginning of what a file holds, for messages: it may be no text at all.
 std::string printable(std::string_view text);

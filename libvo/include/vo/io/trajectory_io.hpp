@@ -24,7 +24,8 @@ struct WalkTruth {
 /// Reads `truth.csv`: columns frame,time_s,x_m,y_m,heading_deg,distance_m and optionally steps, in any order;
 /// heading clockwise from +y. Beside frame and time, empty cells are what is not known; a pose is known with
 /// all its three. Throws `vo::Error` naming file, line and column for a missing column, a cell that is no
-/// number, frames that do not run 0, 1, 2, ..., times that do not increase, or distances that decrease.
+/// number, frames that do not run 0, 1, 2, ..., times that do not increase or are not in seconds
+/// (`time_unit`), or distances that decrease.
 WalkTruth read_truth(const std::filesystem::path& path);
 
 /// The known poses.

@@ -102,6 +102,26 @@ TEST(Survey, NothingIsKnownInAGap) {
   EXPECT_THROW(place::survey_from_trajectory(file, walk, {.max_gap_s = 0}), std::invalid_argument);
 }
 
+TEST(Survey, SaysIfItKnowsLittleOfTheWalk) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 10; ++i) text += fmt::format("{} 0 {} 0 0 0 0.7071068 0.7071068\n", 0.1 * i, 0.1 * i);
+  const auto file = folder.write("walk.tum", text);
+  EXPECT_THAT(place::survey_from_trajectory(file, recording(15, 10)).warnings, testing::IsEmpty());
+  // To 0.9 s and a frame more.
+  EXPECT_THAT(place::survey_from_trajectory(file, recording(100, 10)).warnings,
+              ElementsAre(HasSubstr("walk.tum: has poses at 11 of 100 frames")));
+}
+
+TEST(Survey, TruthIsInSeconds) {
+  const TemporaryFolder folder;
+  // Nothing is known but times, 25 frames a second in milliseconds.
+  std::string text = "frame,time_s,x_m,y_m,heading_deg,distance_m\n";
+  for (int i = 0; i < 50; ++i) text += fmt::format("{},{},,,,0\n", i, 40 * i);
+  EXPECT_THROW_WITH(place::survey_from_truth(folder.write("truth.csv", text), recording(50, 25)), vo::Error,
+                    "truth.csv: has times over 1960 s; expected seconds: walk.mp4 lasts 1.960 s");
+}
+
 TEST(Survey, AFileWithoutTimesHasOnePoseForEachFrame) {
   const TemporaryFolder folder;
   std::string kitti;

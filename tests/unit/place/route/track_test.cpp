@@ -165,6 +165,19 @@ TEST(Track, ReadsCsv) {
   EXPECT_THAT(track.time_s, ElementsAre(0.5, 1.5));
   EXPECT_EQ(track.points[1].latitude_deg, 46.1);
   EXPECT_FALSE(track.start_utc_s);
+  // A ten-thousandth of a degree is 11 m north.
+  const auto milliseconds =
+      read("time_s,lat_deg,lon_deg\n0,46,7\n10000,46.0001,7\n20000,46.0002,7\n", {}, "walk.csv");
+  EXPECT_THAT(milliseconds.time_s, ElementsAre(0, 10, 20));
+  EXPECT_THAT(milliseconds.warnings, ElementsAre(HasSubstr("times in milliseconds, converted")));
+  const auto dated =
+      read("time_s,lat_deg,lon_deg\n'1717156800','46','7'\n'1717156801','46','7'\n", {}, "walk.csv");
+  EXPECT_THAT(dated.time_s, ElementsAre(0, 1));
+  EXPECT_EQ(dated.start_utc_s, 1717156800);
+  const auto iso =
+      read("Time,Lat,Lon\n2024-05-31T12:00:00Z,46,7\n2024-05-31T14:00:01+02:00,46,7\n", {}, "walk.csv");
+  EXPECT_THAT(iso.time_s, ElementsAre(0, 1));
+  EXPECT_EQ(iso.start_utc_s, 1717156800);
   EXPECT_THROW_WITH(read("time_s,lat_deg\n1,2\n", {}, "walk.csv"), vo::Error, "longitude_deg");
   const auto bad = read("time_s,lat_deg,lon_deg\n1,2,3\n1,2,3\n2,95,3\n3,2,3\n4,x,3\n", {}, "walk.csv");
   EXPECT_THAT(bad.time_s, ElementsAre(1, 3));

@@ -55,10 +55,12 @@ TEST(Csv, ReadsWhatSpreadsheetsWrite) {
     EXPECT_THAT(table.indices("b"), ElementsAre(2, 30)) << content;
   };
   reads("a,b\n1.5,2\n-.25,30\n");
-  reads("a;b\n1,5;2\n-0,25;30\n");                                // decimal commas
-  reads("a\tb\n1,5\t2\n-0.25\t30\n");                             // tabs, either mark
-  reads("\"a\",\"b\"\n\"1.5\",\"2\"\n\"-0.25\",\"30\"\n");        // everything in quotes
-  reads("\"a\",\"b\"\n\"1,5\",2\n\"-0,25\",30\n");                // quotes for the comma's sake
+  reads("a;b\n1,5;2\n-0,25;30\n");                          // decimal commas
+  reads("a\tb\n1,5\t2\n-0.25\t30\n");                       // tabs, either mark
+  reads("\"a\",\"b\"\n\"1.5\",\"2\"\n\"-0.25\",\"30\"\n");  // everything in quotes
+  reads("\"a\",\"b\"\n\"1,5\",2\n\"-0,25\",30\n");          // quotes for the comma's sake
+  reads("'a','b'\n'1.5','2'\n'-0.25','30'\n");              // single quotes
+  reads("a;b\n '1,5' ; 2\n'-0,25';'30'\n");
   reads("# exported\na,b\n1.5,2\n# half way\n-0.25,30\n,\n,\n");  // comments, empty rows at the end
   reads(
       "\xEF\xBB\xBF"
@@ -78,6 +80,17 @@ TEST(Csv, AQuotedCellMayHoldSeparatorsAndQuotes) {
   EXPECT_THAT(table.numbers("a"), ElementsAre(7, 8));
 }
 
+TEST(Csv, AnApostropheIsNoQuote) {
+  const TemporaryFolder folder;
+  const auto table = vo::CsvTable::read(
+      folder.write("t.csv", "a,name\n1,'t Hoekje\n2,the dog's\n3,'Rock ''n'' Roll, \"Bar\"'\n4,''\n5,'\n"));
+  EXPECT_THAT(table.text("name"), ElementsAre("'t Hoekje", "the dog's", "Rock 'n' Roll, \"Bar\"", "", "'"));
+  for (const std::string name : {"'t Hoekje", "'quoted'", "''", "a'b"}) {
+    const auto back = vo::CsvTable::read(folder.write("t.csv", "a,name\n1," + vo::csv_cell(name) + "\n"));
+    EXPECT_THAT(back.text("name"), ElementsAre(name));
+  }
+}
+
 TEST(Csv, AThousandIsNotTakenForADecimalComma) {
   const TemporaryFolder folder;
   EXPECT_THROW_WITH(vo::CsvTable::read(folder.write("t.csv", "a,b\n\"1,234\",1\n")).numbers("a"), vo::Error,
@@ -92,6 +105,8 @@ TEST(Csv, ACommentOverNumbersIsAHeader) {
   const auto table = vo::CsvTable::read(folder.write("t.csv", "# EuRoC, 2016\n#time [ns],x [m]\n1,2\n3,4\n"));
   EXPECT_THAT(table.header(), ElementsAre("time [ns]", "x [m]"));
   EXPECT_THAT(table.numbers("x [m]"), ElementsAre(2, 4));
+  const auto quoted = vo::CsvTable::read(folder.write("t.csv", "'#time [ns]','x [m]'\n'1','2'\n"));
+  EXPECT_THAT(quoted.numbers("time [ns]"), ElementsAre(1));
 }
 
 TEST(Csv, LeavesOutWhatItIsToldTo) {

@@ -73,6 +73,15 @@ TEST(PoseSeries, ReadsTumAsProgramsWriteIt) {
   reads(replaced(north, " ", ","));
   reads("timestamp,tx,ty,tz,qx,qy,qz,qw\n" + replaced(north, " ", ","));
   reads(replaced(north, " ", "\t"));
+  for (const std::string quote : {"'", "\""}) {
+    const std::string inner = quote + "," + quote;
+    const std::string lines = replaced(replaced(north, " ", inner), "\n", quote + "\n" + quote);
+    const std::string cells = quote + lines.substr(0, lines.size() - 1);
+    reads(cells);
+    reads(replaced(cells, ",", " "));
+    reads("timestamp,tx,ty,tz,qx,qy,qz,qw\n" + cells);
+    reads(quote + replaced("timestamp,tx,ty,tz,qx,qy,qz,qw", ",", inner) + quote + "\n" + cells);
+  }
   reads(replaced(north, "\n", " \r\n\r\n"));
 }
 
@@ -129,6 +138,17 @@ TEST(PoseSeries, ConvertsClocksThatCountFasterThanSeconds) {
   reads({"0", "50000000", "100000000"}, "nanoseconds", 0);
   reads({"3600000000000", "3600050000000"}, "nanoseconds", 3600);
   reads({"0", "50000", "100000"}, "microseconds", 0);
+  reads({"0", "50", "100"}, "milliseconds", 0);
+}
+
+TEST(PoseSeries, AColumnMaySayWhatItsTimesAreIn) {
+  const TemporaryFolder folder;
+  for (const auto& [name, per_second] :
+       {std::pair("time_ms", 1e3), std::pair("timestamp_us", 1e6), std::pair("timestamp [ns]", 1e9)}) {
+    const auto series = vo::read_pose_series(
+        folder.write("t.csv", fmt::format("{},x_m,y_m\n0,0,0\n{},0,0\n", name, 0.25 * per_second)));
+    EXPECT_THAT(series.time_s, ElementsAre(0, 0.25)) << name;
+  }
 }
 
 TEST(PoseSeries, ReadsEuRoc) {
@@ -143,6 +163,12 @@ TEST(PoseSeries, ReadsEuRoc) {
   // w first: a third of a turn about (1, 1, 1) takes x to y.
   EXPECT_LT(cv::norm(series.poses[0].rotation * cv::Vec3d(1, 0, 0) - cv::Vec3d(0, 1, 0)), 1e-12);
   EXPECT_THAT(series.warnings, ElementsAre(HasSubstr("times in nanoseconds, converted to seconds")));
+  const std::string single =
+      "'#timestamp [ns]','p_RS_R_x [m]','p_RS_R_y [m]','p_RS_R_z [m]','q_RS_w []','q_RS_x []','q_RS_y "
+      "[]','q_RS_z []'\n'1000000000','1','2','3','1','0','0','0'\n'1005000000','4','5','6','1','0','0','0'\n";
+  for (const std::string& text : {single, "#" + replaced(single, "#", "")}) {
+    EXPECT_THAT(vo::read_pose_series(folder.write("data.csv", text)).time_s, ElementsAre(1, 1.005)) << text;
+  }
 }
 
 TEST(PoseSeries, ReadsKittiWithAndWithoutTimes) {

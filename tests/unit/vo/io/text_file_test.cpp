@@ -43,6 +43,18 @@ TEST(TextFile, DecodesByTheByteOrderMark) {
   EXPECT_THAT(lines_of(std::string("\xFF\xFE\x3D\xD8\x41\x00\x00\xDC\x7A", 9)), ElementsAre("?A?"));
 }
 
+TEST(TextFile, Utf16NeedsNoMark) {
+  const auto widened = [](std::string_view text, bool big_endian) {
+    std::string wide;
+    for (const char c : text) wide += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
+    return wide;
+  };
+  for (const bool big_endian : {false, true})
+    EXPECT_THAT(lines_of(widened("a,b\r\n1,2\r\n", big_endian)), ElementsAre("a,b", "1,2"));
+  const std::string binary("\0\0a\0", 4);
+  EXPECT_THAT(lines_of(binary), ElementsAre(binary));
+}
+
 TEST(TextFile, SaysWhatItShouldHaveBeen) {
   const TemporaryFolder folder;
   EXPECT_THROW_WITH(vo::read_text_file(folder / "none", "a text"), vo::Error,

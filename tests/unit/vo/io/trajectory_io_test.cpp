@@ -3,6 +3,7 @@
 #include <numbers>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,6 +36,28 @@ TEST(Truth, ReadsFramesInOrder) {
   EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", "frame,time_s\n0,0\n")), vo::Error, "has no column");
   EXPECT_THROW_WITH(vo::read_truth(folder.write("t.csv", header + "0,0,0,0,0,2,0\n1,1,0,0,0,1.5,0\n")),
                     vo::Error, "line 3: distance 1.5 m is less than the 2 m before");
+}
+
+TEST(Truth, TimesAreInSeconds) {
+  const TemporaryFolder folder;
+  const auto truth = [&](double step, double speed_m, bool poses) {
+    std::string text = "frame,time_s,x_m,y_m,heading_deg,distance_m\n";
+    for (int i = 0; i < 50; ++i) {
+      text += poses ? fmt::format("{},{},0,{},0,\n", i, step * i, speed_m * i)
+                    : fmt::format("{},{},,,,{}\n", i, step * i, speed_m * i);
+    }
+    return folder.write("t.csv", text);
+  };
+  for (const bool poses : {false, true}) {
+    // 25 frames a second at 1.25 m/s, by clocks that count faster.
+    EXPECT_NO_THROW(vo::read_truth(truth(0.04, 0.05, poses)));
+    EXPECT_THROW_WITH(
+        vo::read_truth(truth(40, 0.05, poses)), vo::Error,
+        "t.csv: has times in milliseconds, as it seems: 2 m from 0 to 1960; expected time_s in seconds");
+    EXPECT_THROW_WITH(vo::read_truth(truth(4e7, 0.05, poses)), vo::Error, "in nanoseconds");
+    // Pictures taken by hand, two minutes and 50 m apart.
+    EXPECT_NO_THROW(vo::read_truth(truth(120, 50, poses)));
+  }
 }
 
 TEST(Truth, EmptyCellsAreWhatIsNotKnown) {
