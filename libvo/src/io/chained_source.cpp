@@ -86,6 +86,13 @@ class ChainedSource final : public FrameSource {
                                              walks_[number_], between_s, walks_[number_ - 1]));
         return between_s;
       }
+      if (between_s < 0) {
+        past_warnings_.push_back(fmt::format(
+            "{}: was recorded before {} ended, as their creation times say; are they in order? {} s "
+            "between them is taken",
+            walks_[number_], walks_[number_ - 1], kUnknownPause_s));
+        return kUnknownPause_s;
+      }
     }
     past_warnings_.push_back(fmt::format("{}: does not say how long after {} it begins; {} s is taken",
                                          walks_[number_], walks_[number_ - 1], kUnknownPause_s));
