@@ -22,6 +22,19 @@ std::vector<cv::Mat> scene(cv::Size size, int brightest = 255) {
   return pictures;
 }
 
+/// The same with bars of a dark grey, and noise of so many levels all over.
+std::vector<cv::Mat> grey_barred(std::vector<cv::Mat> pictures, int rows, int columns, int level,
+                                 double noise) {
+  vo::Rng rng(4);
+  for (cv::Mat& picture : pictures) {
+    cv::copyMakeBorder(picture, picture, rows, rows, columns, columns, cv::BORDER_CONSTANT,
+                       cv::Scalar(level));
+    for (auto value = picture.begin<std::uint8_t>(); value != picture.end<std::uint8_t>(); ++value)
+      *value = cv::saturate_cast<std::uint8_t>(*value + noise * rng.normal());
+  }
+  return pictures;
+}
+
 /// The same with bars, which compression makes a little brighter than black.
 std::vector<cv::Mat> barred(std::vector<cv::Mat> pictures, int top, int bottom, int left, int right) {
   for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -38,6 +51,32 @@ TEST(BlackBars, AreFoundOnAnySide) {
   EXPECT_EQ(vo::find_black_bars(barred(scene(size), 10, 20, 30, 0)), cv::Rect(30, 10, 160, 90));
   EXPECT_TRUE(vo::may_have_black_bars(barred(scene(size), 0, 8, 0, 0)[0]));
   EXPECT_TRUE(vo::may_have_black_bars(barred(scene(size), 0, 0, 0, 8)[0]));
+}
+
+TEST(BlackBars, MayBeDarkGreyAndNoisy) {
+  const cv::Size size(320, 180);
+  for (const int level : {0, 16, 30, 45}) {
+    for (const double noise : {0.0, 2.0, 5.0}) {
+      const auto above = grey_barred(scene(size), 30, 0, level, noise);
+      EXPECT_TRUE(vo::may_have_black_bars(above[0])) << level << " " << noise;
+      EXPECT_EQ(vo::find_black_bars(above), cv::Rect(0, 30, 320, 180)) << level << " " << noise;
+      EXPECT_EQ(vo::find_black_bars(grey_barred(scene(size), 0, 60, level, noise)), cv::Rect(60, 0, 320, 180))
+          << level << " " << noise;
+    }
+  }
+  // Brighter than that, it may be a wall or a sky.
+  EXPECT_FALSE(vo::find_black_bars(grey_barred(scene(size), 30, 0, 60, 2)));
+}
+
+TEST(BlackBars, ADarkRoadOrSkyIsNone) {
+  // Dark grey below and above, and as even as a bar, but it ends elsewhere in every picture.
+  std::vector<cv::Mat> pictures = scene({320, 180});
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const int swing = 9 * static_cast<int>(i);
+    pictures[i].rowRange(0, 20 + swing).setTo(30);
+    pictures[i].rowRange(179 - swing, 180).setTo(30);
+  }
+  EXPECT_FALSE(vo::find_black_bars(grey_barred(pictures, 0, 0, 0, 3)));
 }
 
 TEST(BlackBars, AreNotFoundWhereThereAreNone) {
