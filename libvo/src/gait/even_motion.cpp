@@ -27,6 +27,7 @@ FrameMotion scaled(FrameMotion motion, double factor) {
     auto& [right_px, down_px, growth, roll_rad] = *motion.picture;
     for (double* value : {&right_px, &down_px, &growth, &roll_rad}) *value *= factor;
   }
+  if (motion.flow) motion.flow = Flow{motion.flow->right_rad * factor, motion.flow->down_rad * factor};
   if (motion.turn) {
     motion.turn->turn_rad *= factor;
     motion.turn->turn_per_travel *= factor;
@@ -67,6 +68,7 @@ FrameMotion mixed(const FrameMotion& a, const FrameMotion& b, double share) {
   if (share <= 0 || share >= 1) {
     motion.picture = share <= 0 ? a.picture : b.picture;
     motion.turn = share <= 0 ? a.turn : b.turn;
+    motion.flow = share <= 0 ? a.flow : b.flow;
     return motion;
   }
   if (a.picture && b.picture) {
@@ -75,12 +77,30 @@ FrameMotion mixed(const FrameMotion& a, const FrameMotion& b, double share) {
                                    std::lerp(a.picture->growth, b.picture->growth, share),
                                    std::lerp(a.picture->roll_rad, b.picture->roll_rad, share)};
   }
+  if (a.flow && b.flow) {
+    motion.flow = Flow{std::lerp(a.flow->right_rad, b.flow->right_rad, share),
+                       std::lerp(a.flow->down_rad, b.flow->down_rad, share)};
+  }
   if (a.turn && b.turn) {
     motion.turn = Turn{.turn_rad = std::lerp(a.turn->turn_rad, b.turn->turn_rad, share),
                        .turn_per_travel = std::lerp(a.turn->turn_per_travel, b.turn->turn_per_travel, share),
                        .travel_rad = share < 0.5 ? a.turn->travel_rad : b.turn->travel_rad};
   }
   return motion;
+}
+
+std::vector<Flow> flow_at(const GaitSignal& even, std::span<const double> time_s) {
+  if (even.flow_per_s.empty()) return {};
+  std::vector<double> right, down;
+  for (const Flow& flow : even.flow_per_s) {
+    right.push_back(flow.right_rad);
+    down.push_back(flow.down_rad);
+  }
+  right = read_at(right, even.time_s, time_s);
+  down = read_at(down, even.time_s, time_s);
+  std::vector<Flow> flow;
+  for (std::size_t i = 0; i < right.size(); ++i) flow.push_back({right[i], down[i]});
+  return flow;
 }
 
 }  // namespace
@@ -136,6 +156,7 @@ GaitSignal signal_at_frames(const GaitSignal& even, std::span<const FrameMotion>
                     .shift = {at_frames(even.shift.values), even.shift.unit},
                     .bounce = {at_frames(even.bounce.values), even.bounce.unit},
                     .growth_per_s = at_frames(even.growth_per_s),
+                    .flow_per_s = flow_at(even, time_s),
                     .heading_rad = at_frames(even.heading_rad),
                     .travel_rad = even.travel_rad};
   for (const FrameMotion& frame : motion) {

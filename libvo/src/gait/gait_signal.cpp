@@ -61,6 +61,7 @@ FrameMotion frame_motion(const Tracks& tracks, const Camera& camera, const Frame
   if (motion.picture) {
     motion.picture = PictureMotion{motion.picture->right_px / frames, motion.picture->down_px / frames,
                                    motion.picture->growth / frames, motion.picture->roll_rad / frames};
+    motion.flow = Flow{motion.picture->right_px / camera.fx_px, motion.picture->down_px / camera.fy_px};
   }
   motion.window = tracks.span;
   motion.turn = turn(tracks.points, camera, options.heading);
@@ -86,7 +87,7 @@ GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const doub
   const double rate_hz = frame_rate_hz(time_s);
   GaitSignal signal{
       .rate_hz = rate_hz, .time_s = {time_s.begin(), time_s.end()}, .travel_rad = travel_rad(motion)};
-  std::vector<double> orientation_deg, shifts_px, turns_rad, down_px, growth_per_s;
+  std::vector<double> orientation_deg, shifts_px, turns_rad, down_px, growth_per_s, flow_right, flow_down;
   std::vector<bool> seen;  // the picture's motion
   for (const FrameMotion& frame : motion) {
     signal.matches.push_back(frame.matches);
@@ -96,6 +97,9 @@ GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const doub
     const PictureMotion picture = frame.picture.value_or(PictureMotion{});
     down_px.push_back(picture.down_px);
     growth_per_s.push_back(picture.growth * rate_hz);
+    const Flow flow = frame.flow.value_or(Flow{});
+    flow_right.push_back(flow.right_rad * rate_hz);
+    flow_down.push_back(flow.down_rad * rate_hz);
     seen.push_back(frame.picture.has_value());
     const Turn turn = frame.turn.value_or(Turn{});
     turns_rad.push_back(turn.turn_rad + turn.turn_per_travel * signal.travel_rad);
@@ -111,6 +115,10 @@ GaitSignal gait_signal(std::span<const FrameMotion> motion, std::span<const doub
   signal.bounce = {smooth(without_drift(bridge_gaps(down_px, seen), rate_hz, kSlowestBounce_hz)),
                    SignalUnit::kPixels};
   signal.growth_per_s = smooth(bridge_gaps(growth_per_s, seen));
+  flow_right = smooth(bridge_gaps(flow_right, seen));
+  flow_down = smooth(bridge_gaps(flow_down, seen));
+  for (std::size_t i = 0; i < flow_right.size(); ++i)
+    signal.flow_per_s.push_back({flow_right[i], flow_down[i]});
 
   turns_rad = bridge_gaps(turns_rad, signal.reliable);
   turns_rad.front() = 0;

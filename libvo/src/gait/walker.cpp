@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace vo {
@@ -62,6 +63,45 @@ std::vector<bool> camera_travels(const GaitSignal& signal) {
     nearer.push_back(std::abs(mean) >= kLeastGrowth_per_s);
   }
   return nearer;
+}
+
+std::vector<Flow> steady_flow(const GaitSignal& signal) {
+  constexpr double kReach_s = 2.5;
+  const std::vector<Flow>& flow = signal.flow_per_s;
+  std::vector<Flow> sum(flow.size() + 1);
+  for (std::size_t i = 0; i < flow.size(); ++i)
+    sum[i + 1] = {sum[i].right_rad + flow[i].right_rad, sum[i].down_rad + flow[i].down_rad};
+  std::vector<Flow> steady;
+  for (std::size_t i = 0; i < flow.size(); ++i) {
+    const FrameRange near = frames_around(signal.time_s, {i, i + 1}, kReach_s);
+    const auto count = static_cast<double>(near.size());
+    steady.push_back({(sum[near.end].right_rad - sum[near.begin].right_rad) / count,
+                      (sum[near.end].down_rad - sum[near.begin].down_rad) / count});
+  }
+  return steady;
+}
+
+std::vector<bool> rides_past(const GaitSignal& signal, std::span<const Flow> steady) {
+  if (!steady.empty() && steady.size() != signal.time_s.size())
+    throw std::invalid_argument("rides_past: one flow for each frame expected");
+  std::vector<bool> rides(signal.time_s.size(), false);
+  const auto flows = [&](std::size_t i) {
+    return std::hypot(steady[i].right_rad, steady[i].down_rad) >= kLeastFlow_rad_s;
+  };
+  const auto one_way = [&](std::size_t i, std::size_t k) {
+    return steady[i].right_rad * steady[k].right_rad + steady[i].down_rad * steady[k].down_rad > 0;
+  };
+  for (std::size_t begin = 0, end = 0; begin < steady.size(); begin = std::max(end, begin + 1)) {
+    Flow angle;
+    for (end = begin; end < steady.size() && flows(end) && one_way(begin, end); ++end) {
+      const double frame_s = end > 0 ? signal.time_s[end] - signal.time_s[end - 1] : 0;
+      angle.right_rad += steady[end].right_rad * frame_s;
+      angle.down_rad += steady[end].down_rad * frame_s;
+    }
+    if (std::hypot(angle.right_rad, angle.down_rad) < 2 * std::numbers::pi) continue;
+    for (std::size_t i = begin; i < end; ++i) rides[i] = true;
+  }
+  return rides;
 }
 
 std::vector<bool> bounces_like_walker(const GaitSignal& signal, std::span<const Periodicity> bounce) {

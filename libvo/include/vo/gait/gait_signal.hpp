@@ -16,6 +16,12 @@ namespace vo {
 
 enum class Average { kMedian, kMean };
 
+/// How fast the picture moves past, as angles.
+struct Flow {
+  double right_rad = 0;
+  double down_rad = 0;
+};
+
 /// What the tracked points of one frame show of the camera's motion since the frame before. Changes over the
 /// tracking window are divided by its number of frames. None where too few points were tracked.
 struct FrameMotion {
@@ -26,6 +32,7 @@ struct FrameMotion {
   std::optional<double> shift_px;  ///< of the points, to the right positive
   std::optional<PictureMotion> picture;  ///< of the whole picture
   std::optional<Turn> turn;              ///< of the camera
+  std::optional<Flow> flow = {};         ///< of the middle of the picture
 };
 
 /// Settings of `frame_motion`.
@@ -64,6 +71,7 @@ struct GaitSignal {
   Signal shift;                      ///< x shift without turns and drift, low-passed
   Signal bounce;                     ///< picture's motion down without drift, low-passed
   std::vector<double> growth_per_s;  ///< share by which the picture grows in a second, low-passed
+  std::vector<Flow> flow_per_s;      ///< in a second, low-passed
   std::vector<double> heading_rad;   ///< of the walker, clockwise, since the first frame
   double travel_rad = 0;             ///< direction of travel, to the right of where the camera looks
   std::vector<std::size_t> matches;  ///< points tracked

@@ -13,12 +13,24 @@ namespace vo {
 /// walk at 1 m/s towards things 100 m away. Walks have 0.05 and more; a camera shaken on the spot, 0.001.
 inline constexpr double kLeastGrowth_per_s = 0.01;
 
+/// Angle by which the picture moves past in a second below which a camera is not taken to look out of a
+/// window: a walk past a wall 25 m away. People who stand sway and look about, but not so far in 5 s.
+inline constexpr double kLeastFlow_rad_s = 0.05;
+
 /// The fewest and the most steps per second that people make: below is shuffling, above is sprinting.
 inline constexpr double kSlowestSteps_hz = 1.2, kFastestSteps_hz = 3.5;
 
 /// True at the frames around which the camera travels: the picture grows or shrinks by at least
 /// `kLeastGrowth_per_s` in the mean over 5 s, in which sway and shaking cancel. O(n).
 std::vector<bool> camera_travels(const GaitSignal& signal);
+
+/// The picture's mean flow over the 5 s around each frame, as an angle in a second: of a camera that looks to
+/// the side or down, whose picture flows past and does not grow. Empty if the signal has none. O(n).
+std::vector<Flow> steady_flow(const GaitSignal& signal);
+
+/// True at the frames of stretches in which the picture flows one way by a whole turn or more, faster than
+/// `kLeastFlow_rad_s` (`steady_flow`): by less, somebody may turn around on the spot. O(n).
+std::vector<bool> rides_past(const GaitSignal& signal, std::span<const Flow> steady);
 
 /// True at the frames around which the bounce is a walker's and not a car's (not in PVO, where walkers wear
 /// all cameras).

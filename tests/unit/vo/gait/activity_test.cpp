@@ -23,6 +23,7 @@ struct Frames {
     signal.growth_per_s.push_back(growth_per_s);
     signal.reliable.push_back(reliable);
     signal.orientation.values.push_back(0);
+    signal.flow_per_s.push_back({});
   }
   void set(double from_s, double to_s, double growth_per_s, bool reliable = true) {
     for (std::size_t i = 0; i < signal.time_s.size(); ++i) {
@@ -75,6 +76,26 @@ TEST(DetectActivity, IsThatOfTheSteps) {
   }
 }
 
+TEST(DetectActivity, AFewStepsReadEarlyAreNoRun) {
+  // As on a real walk of two steps a second: for two seconds, at 2.5.
+  Frames frames(20);
+  std::vector<vo::Step> steps;
+  step(steps, 0, 8, 2);
+  step(steps, 8, 10, 2.5);
+  step(steps, 10, 20, 2);
+  for (const auto& second : vo::detect_activity(frames.signal, steps))
+    EXPECT_EQ(second.activity, Activity::kWalking) << second.time_s;
+  // Run for longer, it is a run; so is all of a short recording.
+  steps.clear();
+  step(steps, 0, 8, 2);
+  step(steps, 8, 12, 2.5);
+  step(steps, 12, 20, 2);
+  EXPECT_EQ(vo::detect_activity(frames.signal, steps)[10].activity, Activity::kRunning);
+  steps.clear();
+  step(steps, 0, 2, 2.5);
+  EXPECT_EQ(vo::detect_activity(Frames(2).signal, steps)[1].activity, Activity::kRunning);
+}
+
 TEST(DetectActivity, CountsWhatWasMadeOfAStepAfterTheLast) {
   Frames frames(10);
   std::vector<vo::Step> steps;
@@ -99,6 +120,32 @@ TEST(DetectActivity, IsRidingWhereTheCameraGetsOnWithoutSteps) {
   // Backwards, too.
   EXPECT_EQ(vo::detect_activity(Frames(20, -0.1).signal, {})[7].activity, Activity::kRiding);
   EXPECT_EQ(vo::detect_activity(Frames(20, 0.005).signal, {})[7].activity, Activity::kStanding);
+}
+
+TEST(DetectActivity, IsNotStandingWhileThePictureFlowsPast) {
+  // Half a minute at a stop, a minute past houses, half a minute at the next stop.
+  Frames frames(120, 0);
+  const auto flow = [&](double from_s, double to_s, vo::Flow per_s) {
+    for (std::size_t i = 0; i < frames.signal.time_s.size(); ++i)
+      if (frames.signal.time_s[i] >= from_s && frames.signal.time_s[i] < to_s)
+        frames.signal.flow_per_s[i] = per_s;
+  };
+  for (const vo::Flow past : {vo::Flow{0.3, 0}, vo::Flow{-0.3, 0.02}, vo::Flow{0, 0.3}}) {
+    flow(30, 90, past);
+    const auto found = activities(vo::detect_activity(frames.signal, {}));
+    for (std::size_t i = 0; i < 120; ++i)
+      EXPECT_EQ(found[i], i < 30 || i >= 90 ? Activity::kStanding : Activity::kRiding) << i;
+  }
+  // By less than a whole turn, somebody may look around.
+  flow(30, 90, {});
+  flow(30, 40, {0.3, 0});
+  const auto around = activities(vo::detect_activity(frames.signal, {}));
+  for (std::size_t i = 0; i < 120; ++i)
+    EXPECT_EQ(around[i], i < 30 || i >= 40 ? Activity::kStanding : Activity::kUnknown) << i;
+  // Left and right again is a glance.
+  flow(30, 40, {});
+  for (int second = 30; second < 90; ++second) flow(second, second + 1, {second % 2 == 0 ? 0.2 : -0.2, 0});
+  EXPECT_EQ(activities(vo::detect_activity(frames.signal, {})), std::vector(120, Activity::kStanding));
 }
 
 TEST(DetectActivity, DoesNotKnowWhereThereWasNothingToSee) {
@@ -132,6 +179,11 @@ TEST(DetectActivity, SaysHowFarTheCameraLeans) {
     frames.signal.orientation.values[i] = 0.5 * std::sin(2 * 3.14159265 * static_cast<double>(i) / 25);
   // Over a second and a half, which is not whole waves, a few hundredths more or less.
   EXPECT_NEAR(vo::detect_activity(frames.signal, {})[5].amplitude_deg, 0.5, 0.06);
+}
+
+TEST(DetectActivity, ABriefWalkMayShowTooFewStepsToSee) {
+  EXPECT_EQ(activities(vo::detect_activity(Frames(2).signal, {})), std::vector(2, Activity::kUnknown));
+  EXPECT_EQ(activities(vo::detect_activity(Frames(2, 0).signal, {})), std::vector(2, Activity::kStanding));
 }
 
 TEST(DetectActivity, OfEmptyAndShortWalks) {
