@@ -82,6 +82,34 @@ class RecordingsTest(unittest.TestCase):
         self.assertAlmostEqual(self.build(self.walk, *VANILLA)[0]["duration_s"], (FRAMES - 1) / 30, places=3)
         self.refused("build", "camera:99", "--frame-rate-hz", 30, says="no frame-rate-hz for a camera")
 
+    def test_a_clock_that_is_not_the_walker_s(self):
+        # Recorded at 80 frames a second and shown at 20.
+        check("simulate", "--scene", "street", "--length-m", "15", "--seed", "3", "--frame-rate-hz", "80", "--width", "320",
+              "--height", "180", "-o", self.folder / "walk")
+        walk, slow = self.folder / "walk" / "walk.mp4", self.folder / "slow.mp4"
+        subprocess.run(["ffmpeg", "-v", "error", "-i", str(walk), "-vf", "setpts=4*PTS", "-r", "20", "-q:v", "3", str(slow)], check=True)
+        self.assertNotIn("--frame-rate-hz", self.build(walk, "--motion", "sad")[1])
+        said = self.build(slow, "--motion", "sad")[1]
+        self.assertIn("slow motion", said)
+        self.assertIn("--frame-rate-hz", said)
+        self.assertNotIn("slow motion", self.build(slow, "--motion", "sad", "--frame-rate-hz", 80)[1])
+        self.refused("build", slow, "--motion", "steps", says="as in slow motion")
+
+    def test_a_camera_that_looks_to_the_side_does_not_stand(self):
+        check("simulate", "--scene", "street", "--length-m", "25", "--seed", "3", "--camera-yaw-deg", "90", "--width", "320",
+              "--height", "180", "-o", self.folder / "walk")
+        check("odometry", self.folder / "walk" / "walk.mp4", "-o", self.folder / "out")
+        seen = [row["activity"] for row in rows(self.folder / "out" / "activity.csv")]
+        self.assertNotIn("standing", seen[:-1])
+
+    def test_bars_of_dark_grey(self):
+        barred = self.folder / "barred.mp4"
+        subprocess.run(["ffmpeg", "-v", "error", "-i", str(self.video), "-vf", "scale=192:96,pad=192:144:0:24:0x202020,noise=alls=6:allf=t",
+                        "-c:v", "mpeg4", "-q:v", "6", str(barred)], check=True)
+        _, said, traverse = self.build(barred, *VANILLA)
+        self.assertIn("has black bars", said)
+        self.assertEqual(traverse["frame_size"], [192, 96])
+
     def test_a_part_of_the_picture(self):
         for recording in (self.video, self.walk):
             self.assertEqual(self.build(recording, *VANILLA)[2]["frame_size"], [96, 48])

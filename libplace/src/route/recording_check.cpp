@@ -116,8 +116,8 @@ Finding gait(const RecordingFacts& facts) {
   if (facts.steps == 0) {
     return {
         "gait", Fitness::kWithCare, "no steps can be seen, so distances are not in metres",
-        "a camera that is worn, its picture not steadied; in a car, --motion hybrid --camera-height-m; of "
-        "pictures taken one by one, --motion none --every 1"};
+        "a camera that is worn, its picture not steadied; in a car, --motion hybrid --camera-height-m; of a "
+        "time lapse, --frame-rate-hz; of pictures taken one by one, --motion none --every 1"};
   }
   Finding finding{"gait", Fitness::kGood,
                   fmt::format("{} steps, {:.2f} a second, during {:.0f} % of the time", facts.steps,

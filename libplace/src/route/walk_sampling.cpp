@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <vo/base/error.hpp>
+#include <vo/gait/playback.hpp>
 
 namespace place {
 namespace {
@@ -128,10 +129,13 @@ SampledWalk described_walk(const vo::Walk& walk, const WalkSamplingOptions& opti
     return sampled;
   }
   vo::WalkMotion motion = vo::walk_motion(walk, options.source, options.motion);
+  const std::string why = motion.impossible_cadence_hz
+                              ? ", and " + vo::impossible_cadence_text(*motion.impossible_cadence_hz)
+                              : std::string();
   if (options.source == vo::MotionSource::kSteps && motion.pedestrian->detection.steps.empty())
-    throw vo::Error(walk.source, "shows no steps", "a walk on foot, or another motion");
+    throw vo::Error(walk.source, "shows no steps" + why, "a walk on foot, or another motion");
   if (options.spacing_m && !options.n && !motion.metric)
-    throw vo::Error(walk.source, "shows no steps, so its motion is not in metres",
+    throw vo::Error(walk.source, "shows no steps, so its motion is not in metres" + why,
                     "no spacing-m, or a walk on foot");
   sampled.displacement = vo::displacements(motion);
   sampled.metric = motion.metric;

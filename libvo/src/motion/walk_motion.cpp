@@ -4,6 +4,7 @@
 #include "vo/base/error.hpp"
 #include "vo/gait/lowpass.hpp"
 #include "vo/gait/playback.hpp"
+#include "vo/gait/thumbnail_motion.hpp"
 #include "vo/motion/height_by_steps.hpp"
 #include "vo/motion/published_hybrid.hpp"
 
@@ -132,13 +133,13 @@ WalkMotion by_all(const Walk& walk, bool with_steps, const WalkMotionOptions& op
   return motion;
 }
 
-/// What a user should know of a walk whose clock is not the walker's.
-std::vector<std::string> cadence_warnings(const Walk& walk, const PedestrianMotionOptions& options) {
-  if (walk.tracked.size() != walk.frames()) return {};
-  const std::optional<double> cadence_hz =
-      impossible_cadence_hz(walk.tracked, without_long_gaps(walk.time_s), options.signal, options.steps);
-  if (!cadence_hz) return {};
-  return {fmt::format("{}: {}", walk.source, impossible_cadence_text(*cadence_hz))};
+/// The cadence of a walk whose clock is not the walker's.
+std::optional<double> impossible_cadence_hz(const Walk& walk, const PedestrianMotionOptions& options) {
+  const std::vector<double> clock_s = without_long_gaps(walk.time_s);
+  if (walk.tracked.size() == walk.frames())
+    return impossible_cadence_hz(walk.tracked, clock_s, options.signal, options.steps);
+  return impossible_cadence_hz(thumbnail_motion(walk.thumbnails, {walk.frame_width_px, walk.frame_height_px}),
+                               clock_s, options.signal, options.steps);
 }
 
 WalkMotion motion_by(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
@@ -174,7 +175,11 @@ void keep_for(MotionSource source, WalkOptions& options) {
 
 WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
   WalkMotion motion = motion_by(walk, source, options);
-  motion.warnings = cadence_warnings(walk, options.pedestrian);
+  motion.impossible_cadence_hz = impossible_cadence_hz(walk, options.pedestrian);
+  if (motion.impossible_cadence_hz) {
+    motion.warnings = {
+        fmt::format("{}: {}", walk.source, impossible_cadence_text(*motion.impossible_cadence_hz))};
+  }
   return motion;
 }
 

@@ -24,7 +24,8 @@ struct WalkMotion {
   std::optional<VisualMotion> visual;          ///< where alignment error was asked for
   std::optional<PedestrianMotion> pedestrian;  ///< where steps were asked for
   Trajectory trajectory;  ///< from (0, 0), heading 0, in that unit; empty unless headings are known
-  std::vector<std::string> warnings;  ///< what a user should know
+  std::optional<double> impossible_cadence_hz;  ///< if its clock is not the walker's
+  std::vector<std::string> warnings;            ///< what a user should know
 };
 
 /// Makes `read_walk` keep what `walk_motion` needs for a source.
@@ -38,8 +39,8 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// has none. A camera that never leaves its first view, and sees no steps, is still: its displacements are 0.
 /// `kFile` is the same without steps, with the track of a file. `kHybridAsPublished` is
 /// `hybrid_as_published`, each segment in a unit of its own. `kVisualOdometry` is the track unprocessed:
-/// nothing where it is lost, each segment in its own unit. Where points were tracked, `warnings` include slow
-/// motion and time lapses (`impossible_cadence_hz`).
+/// nothing where it is lost, each segment in its own unit. `warnings` include slow motion and time lapses
+/// (`impossible_cadence_hz`), as tracked points show them, or else the thumbnails (`thumbnail_motion`).
 ///
 /// Throws `std::invalid_argument` for `kNone`, or a walk that was not read with what the source needs;
 /// `vo::Error` naming a walk that shows no motion to learn from, for `kSad`. With `kSteps`, a walk without

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <stdexcept>
 #include <support/synthetic_walk.hpp>
 #include <vector>
@@ -86,6 +88,45 @@ TEST(WalkMotion, OfAFileIsFilledByAlignmentError) {
     // one patch to the next. Without the relation it would be in frames, a quarter of the track's unit.
     EXPECT_NEAR(filled, truly, 0.3 * truly);
   }
+}
+
+/// Half a minute at 30 frames a second of a walker of 1.8 steps a second, `speed` times as fast as it was:
+/// rings and rays that come nearer for ever, by 15 % a second of the walker's, and bounce by so many pixels
+/// of 64.
+vo::Walk tunnel_walk(double speed, double bounce_px = 0.4) {
+  constexpr int kWidth = 64, kHeight = 32;
+  vo::Walk walk;
+  walk.source = "tunnel";
+  walk.frame_width_px = 640;
+  walk.frame_height_px = 320;
+  walk.thumbnails = vo::make_image_stack(kWidth, kHeight, 0);
+  for (int i = 0; i < 900; ++i) {
+    const double at_s = speed * i / 30;
+    walk.time_s.push_back(i / 30.0);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const double right = x - 31.5,
+                     down = y - 15.5 - bounce_px * std::sin(2 * std::numbers::pi * 1.8 * at_s);
+        const double depth = std::log(std::hypot(right, down) + 1) - 0.15 * at_s,
+                     angle = std::atan2(down, right);
+        const double rings =
+            std::sin(4 * depth + 2 * angle) + std::sin(7 * depth) + std::sin(5 * depth - 3 * angle);
+        walk.thumbnails.pixels.push_back(static_cast<std::uint8_t>(std::lround(128 + 40 * rings)));
+      }
+    }
+  }
+  return walk;
+}
+
+TEST(WalkMotion, OfAlignmentErrorWarnsOfAClockThatIsNotTheWalkers) {
+  const auto warned = [](const vo::Walk& walk) {
+    return vo::walk_motion(walk, vo::MotionSource::kSad).warnings;
+  };
+  EXPECT_THAT(warned(tunnel_walk(1)), testing::IsEmpty());
+  EXPECT_THAT(warned(tunnel_walk(0.25)), testing::ElementsAre(testing::HasSubstr("slow motion")));
+  EXPECT_THAT(warned(tunnel_walk(3)), testing::ElementsAre(testing::HasSubstr("a time lapse")));
+  // What does not bounce shows no steps.
+  for (const double speed : {0.25, 1.0, 3.0}) EXPECT_THAT(warned(tunnel_walk(speed, 0)), testing::IsEmpty());
 }
 
 TEST(WalkMotion, OfAllWithoutStepsOrTrackIsInFrames) {
