@@ -10,6 +10,12 @@ import subprocess
 RETRACE = os.environ.get("RETRACE", "build/release/bin/retrace")
 SOURCE = pathlib.Path(os.environ.get("RETRACE_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
 
+# The columns of matches.csv, and the two after them, of the nearest place with a name.
+MATCH_COLUMNS = ["query_frame", "query_time_s", "traverse", "reference_frame", "reference_time_s",
+                 "reference_distance_m", "score", "accepted", "probability", "sd_keyframes", "sd_m", "yaw_deg", "lateral_m",
+                 "ahead_m"]
+NEAREST_COLUMNS = ["nearest_place", "nearest_place_m"]
+
 
 def run(*arguments, **options):
     """The finished process of `retrace ARGUMENTS`, output as text."""
