@@ -1,9 +1,17 @@
+// With --costs FILE.npy, the time of matches and their probabilities on those costs, which
+// python_overhead.py compares with the same call from Python.
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include <benchmark/benchmark.h>
 
+#include <place/certainty/sure_search.hpp>
+#include <place/describe/npy.hpp>
 #include <place/match/search_method.hpp>
+#include <place/resolve.hpp>
+#include <place/stage_options.hpp>
 #include <vo/base/parallel.hpp>
 #include <vo/base/rng.hpp>
 
@@ -27,10 +35,42 @@ void search(benchmark::State& state, const place::SearchMethod& method, std::siz
   state.counters["looked_at"] = looked_at;
 }
 
+place::CostMatrix read_costs(const std::string& file) {
+  const place::FloatRows rows = place::read_npy(file);
+  place::CostMatrix costs = place::make_cost_matrix(rows.size(), rows.width);
+  for (std::size_t q = 0; q < rows.size(); ++q) std::ranges::copy(rows[q], costs.row(q).begin());
+  return costs;
+}
+
+/// One thread, sequences of 10, as the settings have it.
+void search_surely(benchmark::State& state, const place::SearchMethod& method, const std::string& file) {
+  const place::CostMatrix costs = read_costs(file);
+  place::Settings settings;
+  settings.search = std::string(method.name);
+  settings.sequence_length = 10;
+  const place::SearchOptions options{.sequence =
+                                         place::stage_options(place::resolve(settings, {})).matching.search};
+  vo::set_thread_count(1);
+  for (auto _ : state) benchmark::DoNotOptimize(place::search_surely(costs, method, options).matches.data());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::string costs;
+  if (argc > 2 && std::string_view(argv[1]) == "--costs") {
+    costs = argv[2];
+    std::rotate(argv + 1, argv + 3, argv + argc);
+    argc -= 2;
+  }
   for (const place::SearchMethod& method : place::search_methods()) {
+    if (!costs.empty()) {
+      benchmark::RegisterBenchmark(("surely/" + std::string(method.name)).c_str(), search_surely, method,
+                                   costs)
+          ->MeasureProcessCPUTime()
+          ->Unit(benchmark::kMillisecond);
+      continue;
+    }
     for (const std::size_t size : {std::size_t{1800}, std::size_t{3576}}) {
       const std::string name = "search/" + std::string(method.name) + "/" + std::to_string(size);
       benchmark::RegisterBenchmark(name.c_str(), search, method, size)
