@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <vo/base/trajectory.hpp>
@@ -12,6 +13,7 @@ namespace place {
 namespace {
 
 constexpr double kTurnAhead_m = 8, kEndAhead_m = 3, kPassing_m = 2, kPassingKeyframes = 1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAway = 8;  // metres or keyframes from a named place, after which it can be passed again
 
 /// Metres walked up to each keyframe, by the poses; empty unless all have one.
@@ -165,16 +167,27 @@ std::vector<FollowEvent> Announcer::push(const Position& position) {
   if (!position.place) return events;
   const auto course = std::ranges::find(courses_, position.place->traverse, &Course::traverse);
   if (course == courses_.end()) return events;
-  pass(static_cast<std::size_t>(course - courses_.begin()), position, events);
+  const auto index = static_cast<std::size_t>(course - courses_.begin());
+  const std::optional<std::size_t> course_before = course_;
+  const double before = at_;
+  pass(index, position, events);
   if (course->along_m.empty()) return events;
   const double at_m = course->along_m[position.place->keyframe];
+  if (course_before && course_before != index) {  // announced as far ahead of him as before
+    if (courses_[*course_before].along_m.empty()) announced_to_m_.reset();
+    if (announced_to_m_) *announced_to_m_ += at_m - before;
+  } else if (course_before && at_m < before - kAway) {
+    announced_to_m_.reset();  // set back: another round
+  }
   for (const RouteTurn& turn : course->turns) {
-    if (turn.at_m <= at_m || turn.at_m > at_m + kTurnAhead_m || turn.at_m <= announced_to_m_.value_or(-1))
+    if (turn.at_m <= at_m || turn.at_m > at_m + kTurnAhead_m ||
+        turn.at_m <= announced_to_m_.value_or(-kInfinity))
       continue;
     say(FollowEventKind::kTurnAhead, turn.at_m - at_m, turn.turn_deg);
     announced_to_m_ = turn.at_m;
   }
   const double left_m = course->along_m.back() - at_m;
+  if (left_m > kAway) end_announced_ = false;
   if (!end_announced_ && left_m <= kEndAhead_m) {
     say(FollowEventKind::kEndOfRoute, left_m);
     end_announced_ = true;

@@ -93,7 +93,7 @@ MatchProbabilities match_probabilities(std::span<const double> scores, std::span
   for (const double s : sorted) mean += s / static_cast<double>(sorted.size());
   for (const double s : sorted) variance += (s - mean) * (s - mean) / static_cast<double>(sorted.size());
   // Decoys that are all equal show where wrong matches lie, but not their spread.
-  const double deviation = variance > 0 ? std::sqrt(variance) : 1;
+  const double deviation = sorted.front() < sorted.back() ? std::sqrt(variance) : 1;
   const double high = quantile_of(sorted, 0.9);
   constexpr double kFirstGuess = 0.95;
   std::vector<Weighted> all;

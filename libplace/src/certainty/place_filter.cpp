@@ -11,7 +11,8 @@ namespace place {
 namespace {
 
 constexpr std::array<double, PlaceFilter::kRatios> kRatio{0.5, 0.71, 1, 1.41, 2};
-constexpr std::ptrdiff_t kTriangle = 4;  // as `search_path`: the best place is told by it and its neighbours
+constexpr std::ptrdiff_t kTriangle =
+    4;  // as `search_path`: the best place is found from it and its neighbours
 
 /// p(s) for s = first, first + 1, ... keyframes.
 struct Kernel {

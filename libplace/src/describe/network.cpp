@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -184,12 +185,12 @@ class Network final : public Descriptor {
 /// For each of `parts` equal parts of `cells` in a row: the cells it covers and how much of each.
 std::vector<std::vector<std::pair<int, float>>> covered(int cells, int parts) {
   std::vector<std::vector<std::pair<int, float>>> of(static_cast<std::size_t>(parts));
-  const double size = static_cast<double>(cells) / parts;
   for (int part = 0; part < parts; ++part) {
-    for (int cell = static_cast<int>(part * size); cell < cells; ++cell) {
-      const double overlap = std::min(cell + 1.0, (part + 1) * size) - std::max<double>(cell, part * size);
-      if (overlap <= 1e-9) break;
-      of[static_cast<std::size_t>(part)].emplace_back(cell, static_cast<float>(overlap / size));
+    const std::int64_t begin = std::int64_t{part} * cells, end = begin + cells;  // in parts of a cell
+    for (std::int64_t cell = begin / parts; cell * parts < end; ++cell) {
+      const std::int64_t overlap = std::min((cell + 1) * parts, end) - std::max(cell * parts, begin);
+      of[static_cast<std::size_t>(part)].emplace_back(
+          static_cast<int>(cell), static_cast<float>(overlap) / static_cast<float>(cells));
     }
   }
   return of;

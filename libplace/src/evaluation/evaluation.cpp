@@ -80,6 +80,7 @@ Evaluation evaluate(std::span<const ScoredQuery> queries, double tolerance) {
 
   std::ranges::sort(ranked, std::ranges::greater{}, [](const ScoredQuery& query) { return *query.score; });
   Counts counts;
+  result.best = counts.at(0, result.with_truth);  // where nothing is accepted
   double recall_before = 0;
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     counts.accept(ranked[i], tolerance);

@@ -140,6 +140,7 @@ class Sweep {
   }
 
   std::optional<SampledPair> sample_or_warn(const SweepCell& cell) {
+    walks(cell);  // a walk that cannot be read is no cell that cannot be run
     try {
       return sample(cell);
     } catch (const vo::Error& error) {

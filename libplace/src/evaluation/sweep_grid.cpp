@@ -147,6 +147,10 @@ SweepResults read_sweep(const std::filesystem::path& path, const std::vector<Swe
     const std::vector<std::string> values = table.text(axis.setting);
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i].push_back(values[i]);
   }
+  constexpr std::size_t kOthers = 3 + kColumns.size();  // two counts and the density
+  if (table.header().size() != axes.size() + kOthers)
+    throw vo::Error(path.string(), "is of a sweep of other settings",
+                    "the same axes, another folder, or --force to begin anew");
   const auto query = table.optional_numbers("query_keyframes");
   const auto reference = table.optional_numbers("reference_keyframes");
   const std::vector<std::string> density = table.text("density");

@@ -1,6 +1,7 @@
 #include "match/path_model.hpp"
 
 #include "match/messages.hpp"
+#include "place/match/search_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ PathModel::PathModel(const PathSearchOptions& options, const SequenceSearchOptio
     : references_(std::move(references)), count_(count), own_(own), beside_(beside), team_(team) {
   constexpr double kMostOften = 0.1;  // for sequences of one keyframe
   leave_ = kMostOften / sequence.length;
-  const double range = sequence.search_range_rad, quarter = std::numbers::pi / 4;
+  const double range = std::min(sequence.search_range_rad, kSteepestRangeRad), quarter = std::numbers::pi / 4;
   const double low = sequence.v_min.value_or(std::tan(quarter - range));
   const double high = sequence.v_max.value_or(std::tan(quarter + range));
   constexpr double kSampling = 0.98, kWidest = 5;

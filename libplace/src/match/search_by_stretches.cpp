@@ -22,7 +22,9 @@ SequenceMatch join_stretches(const SequenceMatch& a, const SequenceMatch& b, std
   const SequenceMatch& other = b.cost < a.cost ? a : b;
   SequenceMatch joined = best;
   const std::size_t apart = std::max(*a.reference, *b.reference) - std::min(*a.reference, *b.reference);
-  if (apart > window) joined.score = std::min(best.score, other.cost - best.cost);
+  // Within the window, what the other was held against still competes.
+  const float elsewhere = apart > window ? other.cost : other.cost + other.score;
+  joined.score = std::min(best.score, elsewhere - best.cost);
   return joined;
 }
 

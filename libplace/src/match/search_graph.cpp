@@ -148,10 +148,9 @@ class LazySearch {
     return node.path_cost + behind * settings_.expansion_rate * best_.path_cost / nodes <= best_.path_cost;
   }
 
-  /// Whether too many of the best path's last nodes are hidden.
+  /// Whether all of the best path's last nodes are hidden.
   [[nodiscard]] bool is_lost() const {
     constexpr std::size_t kNodes = 5;  // as long as their sliding window
-    constexpr double kShare = 0.8;
     if (best_.query + 1 - queries_.begin < kNodes) return false;
     std::size_t hidden = 0, at = best_.reference;
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -159,7 +158,7 @@ class LazySearch {
       hidden += static_cast<std::size_t>(is_hidden(query, at));
       at = reached_[query - queries_.begin].at(at).from;
     }
-    return static_cast<double>(hidden) > kShare * kNodes;
+    return hidden == kNodes;
   }
 
   const CostMatrix& enhanced_;

@@ -10,8 +10,7 @@
 namespace place {
 namespace {
 
-constexpr double kLargestRangeRad = 0.8;    // SSS 5.1
-constexpr double kSteepestRangeRad = 0.78;  // slope 185; at pi/4 a line would be vertical
+constexpr double kLargestRangeRad = 0.8;  // SSS 5.1
 constexpr double kLargestSlope = 200;
 
 std::vector<double> slopes_of(const SequenceSearchOptions& options) {

@@ -166,7 +166,7 @@ SequenceMatch match_by(const Posterior& posterior, const MatrixPart& enhanced, s
 }
 
 /// Matches of the queries of one stretch, at the places `given` or else where they are most probable. The
-/// forward pass is made twice, the second time from kept rows, last one first, so that only 2 sqrt(queries)
+/// forward pass is made twice, the second time from kept rows, last one first, so that only 3 sqrt(queries)
 /// rows need to be kept.
 void search_stretch(const MatrixPart& enhanced, const SearchOptions& options, const PathModel& model,
                     Stretch queries, std::span<const SequenceMatch> given, Team& team,

@@ -31,6 +31,8 @@ void check(const vo::Trajectory& odometry, std::span<const PoseFix> fixes, std::
 }  // namespace
 
 bool DriftCorrectionOptions::is_valid(std::string* reason) const {
+  std::string unheard;
+  if (reason == nullptr) reason = &unheard;
   const std::array<std::pair<const char*, double>, 16> above{{{"step_scale_sd", step_scale_sd},
                                                               {"step_scale_walk", step_scale_walk},
                                                               {"turn_scale_sd", turn_scale_sd},

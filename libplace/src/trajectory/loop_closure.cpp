@@ -32,6 +32,8 @@ std::vector<LoopClosure> find_loops(const vo::ImageStack& thumbnails, std::span<
                                     const LoopClosureOptions& options) {
   if (thumbnails.size() != travelled_m.size())
     throw std::invalid_argument("find_loops: one distance for each thumbnail expected");
+  if (std::string reason; !options.search.is_valid(&reason))
+    throw std::invalid_argument("find_loops: " + reason);
   std::vector<LoopClosure> loops;
   const auto length = static_cast<std::size_t>(options.search.length);
   if (travelled_m.size() < 2 * length || travelled_m.back() - travelled_m.front() <= options.recent_m)

@@ -7,7 +7,7 @@ namespace place {
 namespace {
 
 // Across the path, metres: of what a match's points say; and of a match whose points say nothing while those
-// of others do: a walker who keeps a metre aside is so there as well.
+// of others do: a walker who stays a metre to one side does so there too.
 constexpr double kSeenAside_m = 0.12, kUnseenAside_m = 1;
 constexpr std::ptrdiff_t kFewestSeen = 3;  // matches that say so, before the others count as unseen
 

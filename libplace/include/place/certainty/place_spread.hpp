@@ -17,7 +17,7 @@ namespace place {
 /// to exp(-sum / 2) (the likelihood of `search_path`; neighbouring pictures have similar errors, so more than
 /// five add nothing). The result combines the deviation of these places from their mean with half a keyframe
 /// for places between keyframes. A sharp dip in the costs gives 0.5, a flat valley its width, and no dip at
-/// all window / sqrt(3).
+/// all sqrt(window (window + 1) / 3 + 1 / 4).
 ///
 /// `matches`: of a search over `enhanced`, one for each query; otherwise throws `std::invalid_argument`.
 /// O(matches * window).

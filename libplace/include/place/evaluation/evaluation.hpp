@@ -37,7 +37,8 @@ struct Evaluation {
   std::size_t matched_without_truth = 0;
   std::vector<OperatingPoint>
       curve;            ///< one for every distinct score, from the highest threshold to the lowest
-  OperatingPoint best;  ///< the highest F1; among equals, the highest threshold
+  OperatingPoint best;  ///< the highest F1; among equals, the highest threshold; without a match, that of
+                        ///< accepting nothing
   double auc_pr = 0;    ///< average precision: sum of precision * increase of recall along the curve
   double recall_at_100_precision = 0;
   double recall_at_1 = 0;  ///< share of the queries with truth whose match, at any score, is within tolerance

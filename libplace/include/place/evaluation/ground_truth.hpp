@@ -42,9 +42,10 @@ struct PlaceError {
 };
 
 /// Compares one match with the truth. With distances, a query has a true place if its own is known and the
-/// reference comes within `tolerance` of it; the error in frames is to the nearest reference frame at that
-/// distance (a walker who is still spends many there). Throws `vo::Error` if a frame is outside the truth,
-/// `std::invalid_argument` if the truth cannot give errors in `unit`. O(frames).
+/// reference comes within `tolerance` of it, for errors in frames reaches it; the error in frames is to the
+/// nearest reference frame at that distance (a walker who is still spends many there). Throws `vo::Error` if
+/// a frame is outside the truth, `std::invalid_argument` if the truth cannot give errors in `unit`.
+/// O(frames).
 PlaceError place_error(const GroundTruth& truth, std::int64_t query_frame,
                        std::optional<std::int64_t> reference_frame, ErrorUnit unit, double tolerance);
 

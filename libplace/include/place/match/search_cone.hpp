@@ -19,8 +19,8 @@ namespace place {
 /// difference to the best pair outside the uniqueness window; a pair without votes costs 0. Queries without
 /// any vote nearby (a flat row votes for its first reference) stay unmatched.
 ///
-/// Throws `std::invalid_argument` for options that are not valid. O(queries * (references + sum of the cone's
-/// widths)), in parallel.
+/// Throws `std::invalid_argument` for options that are not valid. O(queries * (references + length * sum of
+/// the cone's widths)), in parallel.
 std::vector<SequenceMatch> search_cone(const CostMatrix& enhanced, const SequenceSearchOptions& options = {});
 
 }  // namespace place

@@ -30,14 +30,14 @@ struct GraphSearchOptions {
 /// they can still compete with the best, so most cells are never looked at.
 ///
 /// A node costs 1 / z (the paper's edge weight), with likeness z = exp(-cost), but at most a hidden node's,
-/// exp(hidden_cost). Where four fifths of the last five nodes are hidden, the walk counts as lost, as at its
+/// exp(hidden_cost). Where the last five nodes are all hidden, the walk counts as lost, as at its
 /// beginning, and is searched for in the whole row (as in the authors' later work, 2017): every reference
 /// that is not a hidden node is then a start. The search restarts at gaps of the query and does not cross
 /// those of the reference.
 ///
 /// A hidden node stays unmatched. The score of a match is how far the path around it lies below hidden_cost:
 /// the sum over the sequence of hidden_cost - cost, hidden nodes 0, over sqrt(terms * length), in deviations.
-/// One thread, as the order of expansion is the method. O(n log n) for n nodes reached, about 24 bytes for
+/// One thread, as the order of expansion is the method. O(n log n) for n nodes reached, under 100 bytes for
 /// each. Throws `std::invalid_argument` for options that are not valid.
 SearchResult search_graph(const CostMatrix& enhanced, const SearchOptions& options);
 

@@ -7,6 +7,9 @@
 
 namespace place {
 
+/// Ranges beyond count as this: slope 185; at pi/4 a line would be vertical.
+inline constexpr double kSteepestRangeRad = 0.78;
+
 /// How the best line is held against the best one outside the uniqueness window.
 enum class MatchScore {
   kDifference,  ///< of their costs, in standard deviations

@@ -42,7 +42,7 @@ struct PathSearchOptions {
 /// posterior's mass up to `uniqueness_window` references from it over the mass elsewhere and off the route.
 /// No step crosses a gap: the search restarts at a query's gap, and a reference's gap ends the route.
 ///
-/// O(queries * references * probable steps); one thread for each stretch of the query. Memory: 8 bytes *
+/// O(queries * references * probable steps); one thread for each stretch of the query. Memory: 12 bytes *
 /// references * sqrt(queries). Throws `std::invalid_argument` for options that are not valid or unless there
 /// is one step for each query.
 SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options);

@@ -28,7 +28,7 @@ class FixedLagCorrector {
 
   /// Takes the next node of the walk and, if it was recognised, its fix, whose `node` is ignored. Returns the
   /// poses that are now final: none, one, or a walk's whole beginning once its place is known. Solves if
-  /// there is a fix: O(lag).
+  /// there is a fix: O(lag), or of all nodes so far until the walk is placed.
   std::vector<UncertainPose> push(const vo::TimedPose& odometry, const std::optional<PoseFix>& fix);
 
   /// Where the walker is now; none before matches agree. O(lag).

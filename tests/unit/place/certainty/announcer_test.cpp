@@ -175,4 +175,28 @@ TEST(Announcer, SaysTheEndBySurveyedDistances) {
   EXPECT_DOUBLE_EQ(*events[0].distance_m, 2);
 }
 
+TEST(Announcer, AnnouncesAgainOnTheNextRound) {
+  place::Announcer announcer(around_a_corner());
+  for (std::size_t k = 3; k <= 40; ++k) announcer.push(at(k));
+  std::vector<place::FollowEvent> events;
+  for (std::size_t k = 0; k <= 40; ++k)
+    for (const place::FollowEvent& event : announcer.push(at(k))) events.push_back(event);
+  EXPECT_THAT(names(events), testing::ElementsAre("turn_ahead", "end_of_route"));
+}
+
+TEST(Announcer, AnnouncesTheTurnsOfATraverseThatBeginsElsewhere) {
+  place::Route route = around_a_corner();
+  route.traverses.push_back(route.traverses[0]);
+  route.traverses[1].name = "night";
+  place::Announcer announcer(route);
+  announcer.push(at(14));  // announces the corner at 20 m
+  const auto on_night = [&](std::size_t k) {
+    place::Position position = at(k);
+    position.place->traverse = "night";
+    return announcer.push(position);
+  };
+  on_night(5);  // its corner is another one, 15 m ahead
+  EXPECT_THAT(names(on_night(16)), testing::ElementsAre("turn_ahead"));
+}
+
 }  // namespace

@@ -129,4 +129,13 @@ TEST(MatchProbabilities, RefuseWhatIsNoNumber) {
   EXPECT_THROW(match_probabilities(scores, decoys), std::invalid_argument);
 }
 
+TEST(MatchProbabilities, DoNotDependOnWhereEqualDecoysLie) {
+  const auto surest = [](double at) {
+    std::vector<double> scores(20, at);
+    scores.insert(scores.end(), 10, at + 0.01);
+    return match_probabilities(scores, std::vector<double>(12, at)).probability.back();
+  };
+  EXPECT_NEAR(surest(0.1), surest(0.25), 1e-6);  // 0.25 adds up exactly
+}
+
 }  // namespace

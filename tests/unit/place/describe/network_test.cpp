@@ -126,4 +126,12 @@ TEST_F(TinyNetwork, RefusesARecordThatIsNoPicture) {
   EXPECT_THROW(static_cast<void>(make()->learn(walk)), vo::Error);
 }
 
+TEST(PoolGrid, CoversEachPartWhole) {
+  for (const auto& [cells, parts] :
+       {std::pair(30, 22), std::pair(164, 20), std::pair(328, 20), std::pair(7, 11)})
+    for (const float value :
+         pool_grid(std::vector<float>(static_cast<std::size_t>(cells), 1.0F), 1, 1, cells, 1, parts))
+      EXPECT_NEAR(value, 1, 1e-6) << cells << " in " << parts;
+}
+
 }  // namespace

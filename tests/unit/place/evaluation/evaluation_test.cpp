@@ -116,6 +116,8 @@ TEST(Evaluate, NothingMatched) {
   EXPECT_EQ(result.matched, 0U);
   EXPECT_THAT(result.curve, IsEmpty());
   EXPECT_EQ(result.best.f1, 0);
+  EXPECT_EQ(result.best.false_negatives, 1U);
+  EXPECT_EQ(result.best.precision, 1);
   EXPECT_FALSE(result.errors);
 }
 

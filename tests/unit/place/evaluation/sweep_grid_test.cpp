@@ -65,4 +65,13 @@ TEST(SweepCsv, ReadsBackWhatItWrote) {
                     "did not vary enhance");
 }
 
+TEST(ReadSweep, RefusesAFileOfMoreAxes) {
+  const TemporaryFolder folder;
+  const std::vector<place::SweepAxis> both{{"motion", {"sad"}}, {"enhance", {"none"}}};
+  const auto file =
+      folder.write("sweep.csv", place::sweep_csv(both, {{{"sad", "none"}, place::CellResult{}}}));
+  EXPECT_THROW_WITH(place::read_sweep(file, {{"motion", {"sad"}}}), vo::Error,
+                    "is of a sweep of other settings");
+}
+
 }  // namespace

@@ -204,4 +204,13 @@ TEST(CheckSweep, RefusesASettingWithoutEffect) {
                     vo::Error, "equal-keyframes: has no effect");
 }
 
+TEST_F(SweepTest, ThrowsWhatTheReadersThrow) {
+  input_.query = [](const vo::WalkOptions&) -> vo::Walk {
+    throw vo::Error("walk.mp4", "cannot be read", "a video");
+  };
+  SweepResults results;
+  EXPECT_THROW(place::sweep(input_, {{"motion", {"sad"}}}, results), vo::Error);
+  EXPECT_TRUE(results.empty());
+}
+
 }  // namespace

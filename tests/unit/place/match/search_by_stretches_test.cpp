@@ -65,4 +65,12 @@ TEST(SearchByStretches, GivesNothingForNothing) {
       IsEmpty());
 }
 
+TEST(JoinStretches, GivesTheSameInAnyOrder) {
+  const place::SequenceMatch a{.reference = 0, .cost = -3, .score = 3},
+      b{.reference = 100, .cost = -3.5F, .score = 3.5F}, c{.reference = 105, .cost = -4, .score = 4};
+  using place::join_stretches;
+  EXPECT_EQ(join_stretches(join_stretches(a, b, 10), c, 10).score, 1);
+  EXPECT_EQ(join_stretches(join_stretches(a, c, 10), b, 10).score, 1);
+}
+
 }  // namespace

@@ -286,4 +286,13 @@ TEST(SearchPath, RefusesOptionsThatAreNotValid) {
   EXPECT_THROW(place::search_path(costs, {.sequence = {.length = 0}}), std::invalid_argument);
 }
 
+TEST(SearchPath, CountsARangeBeyondTheSteepestLineAsThat) {
+  const auto costs = walked_costs(25, 40, 0, 1.5, 2.0F, 11);
+  const auto most = place::search_path(costs, {.sequence = {.search_range_rad = 0.78}});
+  for (const double range : {0.79, 0.8}) {
+    const auto beyond = place::search_path(costs, {.sequence = {.search_range_rad = range}});
+    for (std::size_t q = 0; q < 25; ++q) EXPECT_EQ(beyond.matches[q].score, most.matches[q].score) << range;
+  }
+}
+
 }  // namespace

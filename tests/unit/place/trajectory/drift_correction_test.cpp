@@ -388,4 +388,8 @@ TEST(DriftCorrection, RefusesWhatDoesNotFit) {
   EXPECT_EQ(reason, "steady_along_m is -1; expected >= 0");
 }
 
+TEST(DriftCorrectionOptions, NeedNotSayWhatIsWrong) {
+  EXPECT_FALSE((DriftCorrectionOptions{.steady_along_m = -1}.is_valid(nullptr)));
+}
+
 }  // namespace

@@ -91,4 +91,9 @@ TEST(LoopClosure, NothingShortAndConstant) {
   EXPECT_THROW(find_loops(views({1, 2, 3}), way(2)), std::invalid_argument);
 }
 
+TEST(FindLoops, RefusesSettingsThatAreWrong) {
+  for (const int length : {0, -1})
+    EXPECT_THROW(find_loops(views({1, 2, 3}), way(3), {.search = {.length = length}}), std::invalid_argument);
+}
+
 }  // namespace
