@@ -48,7 +48,12 @@ std::string description_of(const SweepOptions& options, const std::vector<place:
       fmt::format("# Sweep of {} on {}\n# truth: {} {} {}, tolerance {}\n# varied:", shown(options.query),
                   shown(options.reference), options.truth.pairs, options.truth.query_truth,
                   options.truth.reference_truth, tolerance_text(options.truth.tolerance));
-  for (const place::SweepAxis& axis : axes) text += " " + axis.setting;
+  for (const place::SweepAxis& axis : axes) {
+    text += " " + axis.setting;
+    // Densities are chosen by these (`place::sweep`).
+    if (axis.setting == "motion" || (options.equal_keyframes && place::shapes_the_matrix(axis.setting)))
+      text += fmt::format("={}", fmt::join(axis.values, ","));
+  }
   place::Settings settings = options.settings;
   settings.threads.reset();  // does not affect results
   if (options.equal_keyframes) text += "\n# equal keyframes";

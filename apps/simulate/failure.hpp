@@ -7,7 +7,7 @@
 
 namespace simulate {
 
-/// What keeps a camera from telling how it moves (SSS 5.2: "high camera speed, sharp turns and low-light or
+/// What keeps a camera from showing how it moves (SSS 5.2: "high camera speed, sharp turns and low-light or
 /// featureless environments").
 enum class FailureKind {
   kBlackout,   ///< nothing but noise

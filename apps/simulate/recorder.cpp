@@ -1,6 +1,7 @@
 #include "recorder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <fstream>
 #include <string>
@@ -31,7 +32,7 @@ bool write_truth(const WalkSimulator& walk, int frames, const fs::path& file) {
   out << "frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n";
   for (int i = 0; i < frames; ++i) {
     const TruthRow row = walk.truth(i);
-    out << fmt::format("{},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", row.frame, row.time_s, row.x_m, row.y_m,
+    out << fmt::format("{},{:.9g},{:.4f},{:.4f},{:.4f},{:.4f},{}\n", row.frame, row.time_s, row.x_m, row.y_m,
                        row.heading_deg, row.distance_m, row.steps);
   }
   out.close();
@@ -91,6 +92,10 @@ Recording simulate_walk(const Options& options, const fs::path& directory, bool 
   }
   encode();
   writer.release();
+  // OpenCV does not report a failed write; the file shows it.
+  if (cv::VideoCapture written((staged.path() / kVideo).string(), cv::CAP_FFMPEG);
+      !written.isOpened() || std::lround(written.get(cv::CAP_PROP_FRAME_COUNT)) != recording.frames)
+    throw cannot_be_written(directory / kVideo);
   if (progress && going_on) progress({"drawing the walk", total, total});
 
   if (!write_truth(walk, recording.frames, staged.path() / kTruth))

@@ -53,7 +53,8 @@ place::Metric metric_of(const std::string& name) {
 }
 
 place::CostMatrix cost_matrix(const py::array& query, const py::array& reference, const std::string& metric) {
-  const bool bytes = py::isinstance<Bytes>(query) && py::isinstance<Bytes>(reference);
+  using AnyBytes = py::array_t<std::uint8_t>;  // strided too; `image_stack` copies it
+  const bool bytes = py::isinstance<AnyBytes>(query) && py::isinstance<AnyBytes>(reference);
   if (bytes && metric == "sad") {
     const vo::ImageStack queries = image_stack(query), references = image_stack(reference);
     const py::gil_scoped_release unlocked;

@@ -24,6 +24,7 @@ place::Settings settings_of(const py::kwargs& arguments) {
     if (value.is_none()) continue;
     auto name = key.cast<std::string>();
     for (char& c : name) c = c == '_' ? '-' : c;
+    if (name == "threads") throw py::value_error("threads: set_threads(count) expected");
     place::set(settings, place::setting_named(name), text_of(value));
   }
   return settings;
@@ -32,6 +33,7 @@ place::Settings settings_of(const py::kwargs& arguments) {
 py::list settings_list() {
   py::list all;
   for (const place::Setting& setting : place::settings_table()) {
+    if (setting.name == "threads") continue;  // `set_threads`
     py::dict entry;
     entry["name"] = python_name(setting.name);
     entry["group"] = std::string(place::name_of(setting.group));

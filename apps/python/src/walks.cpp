@@ -159,6 +159,7 @@ py::dict steps_of(const Odometry& odometry) {
 
 /// A follower that counts the frames it is given.
 struct PythonFollower {
+  std::unique_ptr<const place::Route> route;  ///< its own: the caller's may get other traverses
   place::Follower follower;
   std::int64_t frames = 0;
 };
@@ -189,8 +190,9 @@ py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
     const cv::Mat view(static_cast<int>(image.shape(0)), static_cast<int>(image.shape(1)), kind,
                        const_cast<std::uint8_t*>(image.data()));
     const py::gil_scoped_release unlocked;
-    position = self.follower.push({.index = self.frames++, .time_s = time_s, .image = view, .colour = {}});
+    position = self.follower.push({.index = self.frames, .time_s = time_s, .image = view, .colour = {}});
   }
+  ++self.frames;
   py::dict result = position.place ? as_dict(*position.place) : py::dict();
   result["frame"] = position.frame;
   result["time_s"] = position.time_s;
@@ -234,10 +236,11 @@ void bind_walks(py::module_& module) {
       .def_static(
           "open",
           [](const std::string& path) { return std::make_shared<place::Route>(place::read_route(path)); },
-          py::arg("path"), "Reads a route database.")
+          py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a route database.")
       .def(
           "save", [](const place::Route& route, const std::string& path) { place::write_route(path, route); },
-          py::arg("path"), "Writes the route database, whole or not at all.")
+          py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+          "Writes the route database, whole or not at all.")
       .def("add", &add, py::arg("name"), py::arg("walk"), py::kw_only(), py::arg("truth") = "",
            py::arg("trajectory") = "", py::arg("track") = "", py::arg("replace") = false,
            "Samples a walk and puts it among the traverses, surveyed by one of the files: truth.csv, a "
@@ -317,12 +320,15 @@ void bind_walks(py::module_& module) {
       });
 
   py::class_<PythonFollower>(module, "Follower", "Says where on a route a walker is, frame by frame.")
-      .def(
-          py::init([](const std::shared_ptr<place::Route>& route, double lag_s, const py::kwargs& arguments) {
-            return PythonFollower{place::Follower(*route, settings_of(arguments), {.lag_s = lag_s})};
-          }),
-          py::arg("route"), py::kw_only(), py::arg("lag_s") = 0.0, py::keep_alive<1, 2>(),
-          "`lag_s`: seconds that a second, surer answer looks back by; 0: none.")
+      .def(py::init([](const place::Route& route, double lag_s, const py::kwargs& arguments) {
+             const place::Settings settings = settings_of(arguments);
+             auto own = std::make_unique<const place::Route>(route);
+             const py::gil_scoped_release unlocked;
+             place::Follower follower(*own, settings, {.lag_s = lag_s});
+             return PythonFollower{std::move(own), std::move(follower)};
+           }),
+           py::arg("route"), py::kw_only(), py::arg("lag_s") = 0.0,
+           "`lag_s`: seconds that a second, surer answer looks back by; 0: none.")
       .def("push", &push, py::arg("image"), py::arg("time_s"),
            "The next picture, uint8 (height, width) or BGR (height, width, 3), and its time, later than the "
            "one before. A dict "

@@ -57,6 +57,8 @@ def test_costs_are_those_of_numpy():
     sad = np.asarray(retrace.cost_matrix(bytes_a, bytes_b, metric="sad"))
     expected = np.abs(bytes_a[:, None].astype(int) - bytes_b[None].astype(int)).mean(axis=2)
     assert np.allclose(sad / sad[0, 0], expected / expected[0, 0], atol=1e-4)  # in deviations of a patch
+    strided = retrace.cost_matrix(bytes_a[::2], bytes_b[:, ::-1], metric="sad")
+    assert np.array_equal(strided, retrace.cost_matrix(bytes_a[::2].copy(), bytes_b[:, ::-1].copy(), metric="sad"))
     for wrong in ({"metric": "sad"}, {"metric": "euclid"}):
         with pytest.raises(ValueError):
             retrace.cost_matrix(query, reference, **wrong)
@@ -151,15 +153,15 @@ def test_follows_a_walker(walks):
     day, day_csv, _ = found["day"]
     follower = retrace.Follower(retrace.build(day, truth=day_csv), lag_s=1)
     positions = found["night"][2]
-    right = told = 0
+    right = answers = 0
     for i, position in enumerate(positions):
         picture = np.frombuffer((folder / "night" / f"{i}.pgm").read_bytes()[-48 * 96:], np.uint8).reshape(48, 96)
         now = follower.push(picture, i / 30)
         assert now["frame"] == i
         if now["state"] == "on_route":
-            told += 1
+            answers += 1
             right += abs(now["distance_m"] - position / 100) < 0.5
-    assert told > len(positions) / 2 and right > 0.9 * told
+    assert answers > len(positions) / 2 and right > 0.9 * answers
     earlier = follower.finish()
     assert earlier[0]["frame"] == now["lag"]["frame"] and len(earlier) > 1
     for one in earlier[1:]:
@@ -167,6 +169,35 @@ def test_follows_a_walker(walks):
         assert abs(one["distance_m"] - positions[one["frame"]] / 100) < 0.5
     with pytest.raises(ValueError):
         follower.push(np.zeros((3, 4, 5), np.uint8), 1e9)
+
+
+def picture_of(folder, name, i):
+    return np.frombuffer((folder / name / f"{i}.pgm").read_bytes()[-48 * 96:], np.uint8).reshape(48, 96)
+
+
+def test_a_follower_keeps_the_route_it_was_given(walks):
+    folder, found = walks
+    day, night = retrace.read_walk(found["day"][0]), found["night"][0]
+    route = retrace.build(night)
+    alone, beside = retrace.Follower(retrace.build(night)), retrace.Follower(route)
+    for i in range(150):
+        if i == 50:
+            route.add("reference", day, replace=True)  # of another length
+        picture = picture_of(folder, "night", i)
+        assert beside.push(picture, i / 30) == alone.push(picture, i / 30)
+
+
+def test_a_refused_picture_has_no_number(walks):
+    folder, found = walks
+    follower = retrace.Follower(retrace.build(found["day"][0]))
+    picture = picture_of(folder, "night", 0)
+    assert follower.push(picture, 0)["frame"] == 0
+    with pytest.raises(ValueError):
+        follower.push(picture, 0)
+    assert follower.push(picture, 1 / 30)["frame"] == 1
+    for lag in (-1, float("nan"), 1e9):
+        with pytest.raises(ValueError):
+            retrace.Follower(retrace.build(found["day"][0]), lag_s=lag)
 
 
 def test_a_walk_can_be_stopped(walks):
@@ -186,6 +217,8 @@ def test_settings_are_those_of_the_table():
     assert "sequence_length" in names and len(names) == len(set(names))
     with pytest.raises(retrace.Error):
         retrace.Route(motion="feet")
+    with pytest.raises(ValueError, match="set_threads"):
+        retrace.Route(threads=1)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -77,13 +78,24 @@ std::string name_of(FollowState state) {
   return "";
 }
 
+namespace {
+
+double checked_lag_s(double lag_s) {
+  constexpr double kLongest_s = 60;
+  if (!(lag_s >= 0 && lag_s <= kLongest_s))
+    throw std::invalid_argument("Follower: a lag of 0 to 60 s expected");
+  return lag_s;
+}
+
+}  // namespace
+
 class Follower::Implementation {
  public:
   Implementation(const Route& route, const Settings& settings, const FollowerOptions& options)
       : route_(route),
         settings_(resolved_for(route, settings)),
         stages_(stage_options(settings_)),
-        lag_s_(options.lag_s),
+        lag_s_(checked_lag_s(options.lag_s)),
         costs_(route, stages_),
         stretches_(stretches()),
         filter_(stretches_, {.lag = most_observations_back()}) {

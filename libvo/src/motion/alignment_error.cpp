@@ -102,7 +102,9 @@ MeanErrors mean_errors(const AlignmentErrors& errors, const std::vector<bool>& e
   MeanErrors means{.seconds = {0}, .error = {0}};
   for (const auto& comparisons : errors.by_span) {
     const Sum sum = sum_of(comparisons, excluded);
-    if (!(sum.count > 0)) continue;
+    // Where frames are as far apart as a span and a half, two spans compare the same ones: once is enough.
+    constexpr double kLeastApart_s = kAlignmentSpan_s / 4;
+    if (!(sum.count > 0) || sum.seconds / sum.count < means.seconds.back() + kLeastApart_s) continue;
     means.seconds.push_back(sum.seconds / sum.count);
     means.error.push_back(sum.error / sum.count);
   }

@@ -97,7 +97,7 @@ DisplacementTrack external_trajectory(const PoseSeries& series, std::span<const 
   const auto valid = std::ranges::count(track.frames, true, &TrackedDisplacement::valid);
   if (options.max_gap_s > 0 && time_s.size() > 1 && valid <= (track.frames[0].valid ? 1 : 0)) {
     throw Error(series.source, "has no two poses at neighbouring frames of the walk",
-                fmt::format("poses at most {} s apart", options.max_gap_s));
+                fmt::format("poses and frames at most {} s apart", options.max_gap_s));
   }
   return track;
 }

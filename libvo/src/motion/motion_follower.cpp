@@ -1,5 +1,6 @@
 #include "vo/motion/motion_follower.hpp"
 
+#include "vo/base/clock.hpp"
 #include "vo/base/median.hpp"
 
 #include <algorithm>
@@ -83,16 +84,19 @@ FollowedMotion MotionFollower::push(std::span<const std::uint8_t> normalised, do
     throw std::invalid_argument("MotionFollower: pictures of one size by increasing time expected");
   Past now{time_s, {normalised.begin(), normalised.end()}, seen};
   FollowedMotion motion;
-  ++frames_;
-  if (!first_s_) {
-    first_s_ = time_s;
+  if (past_.empty()) {
     past_.push_back(std::move(now));
     return motion;
   }
   const double since_s = time_s - past_.back().time_s;
   // As `alignment_errors`: spans are longer where frames come slowly.
-  const double mean_s = (time_s - *first_s_) / static_cast<double>(frames_ - 1);
-  span_s_ = std::max(kAlignmentSpan_s, mean_s / 2);
+  constexpr double kUnusual = 4;  // as `clock_gaps`
+  const auto usual_s = [&] { return clock_s_ / static_cast<double>(intervals_); };
+  if (intervals_ == 0 || since_s < std::max(kShortestGap_s, kUnusual * usual_s())) {
+    clock_s_ += since_s;
+    ++intervals_;
+  }
+  span_s_ = std::max(kAlignmentSpan_s, usual_s() / 2);
 
   std::vector<Comparison> compared(options_.spans);
   if (seen) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <unsupported/Eigen/Splines>
 
@@ -68,7 +69,12 @@ SpeedEstimates empty_estimates(const AlignmentErrors& errors, std::span<const do
     throw std::invalid_argument("estimate_motion: separations must be in 1 .. the number of spans");
   if (time_s.size() != errors.frames())
     throw std::invalid_argument("estimate_motion: one time per frame expected");
-  return SpeedEstimates(static_cast<std::size_t>(separations),
+  // With few frames a second, neighbours are compared over a later span; the first in use always counts.
+  const auto used = std::ranges::find_if(
+      errors.by_span, [](const auto& span) { return std::ranges::any_of(span, &Comparison::made); });
+  const std::size_t first =
+      used == errors.by_span.end() ? 1 : static_cast<std::size_t>(used - errors.by_span.begin()) + 1;
+  return SpeedEstimates(std::max(static_cast<std::size_t>(separations), first),
                         std::vector<double>(errors.frames(), kNoSpeed));
 }
 
@@ -216,13 +222,15 @@ std::vector<double> estimate_motion(const AlignmentErrors& errors, const std::ve
   // until then.
   const double hop_s = options.local_window_s / 4;
   std::size_t begin = 0;
+  MotionModel model;
   for (double end_s = time_s[0] + options.local_window_s;; end_s += hop_s) {
     const auto frame_at = [&](double s) {
       return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
     };
     const std::size_t end = frame_at(end_s);
     const std::size_t first = frame_at(end_s - options.local_window_s);
-    const MotionModel model = learn_motion_model(mean_errors_within(errors, excluded, first, end));
+    MotionModel learned = learn_motion_model(mean_errors_within(errors, excluded, first, end));
+    if (learned.learned()) model = std::move(learned);  // else the one before goes on
     if (model.learned()) estimate_speeds(errors, model, begin, end, estimates);
     if (end >= frames) break;
     begin = end;

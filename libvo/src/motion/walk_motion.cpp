@@ -8,6 +8,7 @@
 #include "vo/motion/height_by_steps.hpp"
 #include "vo/motion/published_hybrid.hpp"
 
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -138,8 +139,16 @@ std::optional<double> impossible_cadence_hz(const Walk& walk, const PedestrianMo
   const std::vector<double> clock_s = without_long_gaps(walk.time_s);
   if (walk.tracked.size() == walk.frames())
     return impossible_cadence_hz(walk.tracked, clock_s, options.signal, options.steps);
-  return impossible_cadence_hz(thumbnail_motion(walk.thumbnails, {walk.frame_width_px, walk.frame_height_px}),
-                               clock_s, options.signal, options.steps);
+  // A clock that is not the walker's is so throughout: less than a minute shows it.
+  constexpr double kLooked_s = 40;
+  const double middle_s = (clock_s.front() + clock_s.back()) / 2;
+  const auto begin = std::ranges::lower_bound(clock_s, middle_s - kLooked_s / 2);
+  const auto end = std::ranges::upper_bound(clock_s, middle_s + kLooked_s / 2);
+  std::vector<std::size_t> frames(static_cast<std::size_t>(end - begin));
+  std::iota(frames.begin(), frames.end(), static_cast<std::size_t>(begin - clock_s.begin()));
+  const cv::Size size(walk.frame_width_px, walk.frame_height_px);
+  return impossible_cadence_hz(thumbnail_motion(select(walk.thumbnails, frames), size), {begin, end},
+                               options.signal, options.steps);
 }
 
 WalkMotion motion_by(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
@@ -184,18 +193,11 @@ WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOp
 }
 
 WalkMotion motion_with_steps(const Walk& walk, MotionSource source, const WalkMotionOptions& options) {
-  std::vector<std::string> warnings;
-  if (source == MotionSource::kHybrid) {
-    try {
-      WalkMotion motion = walk_motion(walk, source, options);
-      if (motion.pedestrian) return motion;
-    } catch (const Error& error) {
-      warnings.push_back(std::string(error.what()) + "; steps alone are used");
-    }
-  }
-  WalkMotion motion = walk_motion(walk, MotionSource::kSteps, options);
-  motion.warnings.insert(motion.warnings.begin(), warnings.begin(), warnings.end());
-  return motion;
+  if (source != MotionSource::kHybrid && source != MotionSource::kSteps)
+    throw std::invalid_argument("motion_with_steps: hybrid or steps expected");
+  WalkMotion motion = walk_motion(walk, source, options);
+  if (motion.pedestrian) return motion;
+  return walk_motion(walk, MotionSource::kSteps, options);  // throws, and says why no steps can be seen
 }
 
 std::vector<double> displacements(const WalkMotion& motion) {

@@ -245,7 +245,7 @@ class MonocularVo::Impl {
 
 bool MonocularVoOptions::is_valid(std::string* error) const {
   const auto refuse = [&](std::string_view name, auto value, std::string_view expected) {
-    *error = fmt::format("{} is {}; expected {}", name, value, expected);
+    if (error != nullptr) *error = fmt::format("{} is {}; expected {}", name, value, expected);
     return false;
   };
   if (width_px < 16) return refuse("width_px", width_px, "at least 16");
@@ -258,6 +258,14 @@ bool MonocularVoOptions::is_valid(std::string* error) const {
   if (!(radial_sigma > 0)) return refuse("radial_sigma", radial_sigma, "> 0");
   if (!(radial_step >= 0)) return refuse("radial_step", radial_step, ">= 0");
   if (!(max_gap_s > 0)) return refuse("max_gap_s", max_gap_s, "> 0");
+  if (!(fov_deg >= 10 && fov_deg <= 170)) return refuse("fov_deg", fov_deg, "10 to 170");
+  if (!(keyframe_travel > 0)) return refuse("keyframe_travel", keyframe_travel, "> 0");
+  if (!(keyframe_share >= 0 && keyframe_share <= 1))
+    return refuse("keyframe_share", keyframe_share, "0 to 1");
+  if (!(min_inlier_share >= 0 && min_inlier_share <= 1))
+    return refuse("min_inlier_share", min_inlier_share, "0 to 1");
+  if (!(max_turn_deg > 0)) return refuse("max_turn_deg", max_turn_deg, "> 0");
+  if (!(max_speedup > 1)) return refuse("max_speedup", max_speedup, "> 1");
   return true;
 }
 

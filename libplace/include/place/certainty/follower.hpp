@@ -57,7 +57,7 @@ struct EarlierPlace {
 
 /// Settings of `Follower`.
 struct FollowerOptions {
-  double lag_s = 0;  ///< seconds that a second answer looks back by; 0: no second answer
+  double lag_s = 0;  ///< seconds that a second answer looks back by, up to 60; 0: no second answer
 };
 
 /// Says where on a route a walker is, frame by frame, while he walks. No clock, no thread and no file of its
@@ -79,7 +79,8 @@ class Follower {
  public:
   /// `settings`: of the reading of frames, as for `localise`; what they do not give is the route's. The route
   /// must outlive this. Throws `vo::Error` for settings that do not go together, a route without traverses,
-  /// or one whose descriptors come from a file and so cannot be made of a new picture.
+  /// or one whose descriptors come from a file and so cannot be made of a new picture;
+  /// `std::invalid_argument` for another lag.
   explicit Follower(const Route& route, const Settings& settings = {}, const FollowerOptions& options = {});
   ~Follower();
   Follower(Follower&&) noexcept;

@@ -11,9 +11,10 @@ namespace vo {
 struct ExternalTrajectoryOptions {
   double start_s = 0;              ///< time on the file's clock at the first frame
   double time_tolerance_s = 0.02;  ///< largest time between a frame and a single pose, seconds
-  double max_gap_s = 0.5;          ///< longest time between two poses that is interpolated, seconds
-  bool metric = true;              ///< the file is in metres
-  double relative_sigma = 0.02;    ///< standard deviation of a displacement, as a share: files do not give it
+  /// Longest time between two poses that is interpolated, and between two frames of a segment, seconds.
+  double max_gap_s = 0.5;
+  bool metric = true;            ///< the file is in metres
+  double relative_sigma = 0.02;  ///< standard deviation of a displacement, as a share: files do not give it
 };
 
 /// The track of a walk from another program's trajectory, matched by time.

@@ -33,8 +33,8 @@ struct MotionFollowerOptions {
 /// Motion from alignment error (SSS 3.1 to 3.3) while walking: `visual_motion` without a look at what is to
 /// come. Mean errors are averages that forget (`memory_s`), as SSS 3's local temporal window; a frame's speed
 /// is the least that the spans ending at it say, in proportion to what they said so far, where the batch form
-/// also has spans that end after it; a stand is noticed `standing_span_s` after it began, from when on
-/// nothing moves.
+/// also has spans that end after it; a pause is noticed `standing_span_s` after it began; from then
+/// on the displacement is 0.
 ///
 /// Memory: the pictures of the last `standing_span_s`, and one for each of the last 30 seconds.
 class MotionFollower {
@@ -66,9 +66,9 @@ class MotionFollower {
   std::deque<Past> past_;     // the last frames, oldest first
   std::deque<Past> distant_;  // one a second
   std::vector<double> distant_errors_;
-  std::optional<double> first_s_;
   double span_s_ = kAlignmentSpan_s;
-  std::size_t frames_ = 0;
+  double clock_s_ = 0;  ///< of all intervals between frames that are no gaps
+  std::size_t intervals_ = 0;
   std::vector<Mean> means_;
   MotionModel model_;
   double learned_at_s_ = 0, moving_s_ = 0;

@@ -21,7 +21,7 @@ namespace vo {
 ///
 /// `evidence`: with a track; of the rest, alignment errors count. One displacement for each frame, in the
 /// unit of its segment. Throws `std::invalid_argument` for evidence without a track, or if sizes disagree.
-/// O(segments that teach something * frames * spans * log frames).
+/// O(losses * frames * spans * log frames).
 std::vector<FrameDisplacement> hybrid_as_published(const MotionEvidence& evidence);
 
 }  // namespace vo

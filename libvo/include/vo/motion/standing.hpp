@@ -7,7 +7,8 @@
 
 namespace vo {
 
-/// How much unrelated views differ: the median error of frames half the walk apart. Two unrelated pictures of
+/// How much unrelated views differ: the median error of frames half the walk apart, or 0.38 of
+/// it where that is a quarter larger, as on a walk of several rounds. Two unrelated pictures of
 /// independent normal pixels have 2 / sqrt(pi) = 1.13. `normalised`: bytes of `patch_normalise`; `excluded`:
 /// one flag per frame, true if it is left out, or empty. 0 if fewer than two frames remain. O(frames *
 /// pixels), in parallel.

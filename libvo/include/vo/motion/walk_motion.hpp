@@ -47,9 +47,9 @@ void keep_for(MotionSource source, WalkOptions& options);
 /// steps has displacements of 0 with source `kNone`.
 WalkMotion walk_motion(const Walk& walk, MotionSource source, const WalkMotionOptions& options = {});
 
-/// The motion of a walker whose steps are wanted: by `source`, `kHybrid` or `kSteps`; by steps alone where
-/// the others show nothing, with a warning, or without one where too few frames a second show no steps.
-/// Throws as `walk_motion` and `pedestrian_motion` do.
+/// The motion of a walker whose steps are wanted: by `source`, `kHybrid` or `kSteps`, else
+/// `std::invalid_argument`. `pedestrian` is always set. Throws as `walk_motion` does, and as
+/// `pedestrian_motion` where steps cannot be seen.
 WalkMotion motion_with_steps(const Walk& walk, MotionSource source, const WalkMotionOptions& options = {});
 
 /// The values alone, for the sampler.

@@ -276,4 +276,13 @@ TEST(MeanErrors, WorkedExample) {
   EXPECT_THAT(vo::mean_errors({}).error, ElementsAre(0));
 }
 
+TEST(MeanErrors, AreOfEachDistanceOnce) {
+  std::vector<double> time_s;
+  for (int i = 0; i < 80; ++i) time_s.push_back(i / 20.0);
+  const auto means = vo::mean_errors(vo::alignment_errors(test_support::random_images(4, 4, 80, 6), time_s));
+  EXPECT_GT(means.seconds.size(), 6U);
+  for (std::size_t k = 1; k < means.seconds.size(); ++k)
+    EXPECT_GT(means.seconds[k], means.seconds[k - 1] + 0.01) << k;
+}
+
 }  // namespace

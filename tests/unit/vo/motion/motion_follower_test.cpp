@@ -116,4 +116,14 @@ TEST(MotionFollower, SaysNothingOfPicturesThatNeverChange) {
   EXPECT_LE(moved, 2.2);  // of the span before the stand is noticed
 }
 
+TEST(MotionFollower, GoesOnAfterAPauseOfTheRecording) {
+  const vo::Walk walk = Wall(2000, 1).walk(places(0, std::vector<double>(600, 1.0)));
+  const vo::ImageStack normalised = vo::patch_normalise(walk.thumbnails, {});
+  vo::MotionFollower follower;
+  for (std::size_t i = 0; i < walk.frames(); ++i) {
+    const auto motion = follower.push(normalised[i], walk.time_s[i] + (i >= 300 ? 600 : 0));
+    EXPECT_TRUE(i <= 310 || motion.learned) << i;
+  }
+}
+
 }  // namespace

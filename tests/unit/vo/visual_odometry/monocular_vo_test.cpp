@@ -258,4 +258,14 @@ TEST(MonocularVo, RefusesWhatDoesNotFit) {
   EXPECT_EQ(reason, "noise_px is 0; expected > 0");
 }
 
+TEST(MonocularVoOptions, AreRefusedOutOfTheirRange) {
+  const vo::MonocularVoOptions wrong[] = {{.fov_deg = 5},        {.keyframe_travel = 0},
+                                          {.keyframe_share = 2}, {.min_inlier_share = 1.5},
+                                          {.max_turn_deg = 0},   {.max_speedup = 1}};
+  for (const vo::MonocularVoOptions& options : wrong) {
+    EXPECT_FALSE(options.is_valid(nullptr));
+    EXPECT_THROW(vo::MonocularVo{options}, std::invalid_argument);
+  }
+}
+
 }  // namespace
