@@ -48,10 +48,11 @@ cv::Mat moved_back(const cv::Mat& picture, const Vector5& motion, const cv::Poin
       const int left = std::min(static_cast<int>(x), back.cols - 2),
                 top = std::min(static_cast<int>(y), back.rows - 2);
       const auto across = [&](int at) {
-        return std::lerp(picture.at<float>(at, left), picture.at<float>(at, left + 1),
-                         static_cast<float>(x - left));
+        const float a = picture.at<float>(at, left), b = picture.at<float>(at, left + 1);
+        return a + static_cast<float>(x - left) * (b - a);
       };
-      back.at<float>(row, column) = std::lerp(across(top), across(top + 1), static_cast<float>(y - top));
+      const float above = across(top);
+      back.at<float>(row, column) = above + static_cast<float>(y - top) * (across(top + 1) - above);
     }
   }
   return back;
@@ -64,6 +65,9 @@ bool refine(Vector5& motion, const cv::Mat& before, const cv::Mat& after, const 
   const double middle_x = (before.cols - 1) / 2.0, middle_y = (before.rows - 1) / 2.0;
   std::vector<Vector5> rows;
   std::vector<double> differences, sizes;
+  rows.reserve(before.total());
+  differences.reserve(before.total());
+  sizes.reserve(before.total());
   for (int y = 1; y + 1 < before.rows; ++y) {
     for (int x = 1; x + 1 < before.cols; ++x) {
       const auto slope = [&](const cv::Mat& p, int dx, int dy) {
@@ -119,10 +123,10 @@ std::vector<FrameMotion> thumbnail_motion(const ImageStack& thumbnails, cv::Size
   std::vector<FrameMotion> motion(thumbnails.size());
   if (std::min(thumbnails.width, thumbnails.height) < 3) return motion;  // no slopes
   const cv::Size size(thumbnails.width, thumbnails.height);
+  std::vector<std::vector<cv::Mat>> pyramids(thumbnails.size());
+  parallel_for(pyramids.size(), [&](std::size_t i) { pyramids[i] = pyramid_of(thumbnails[i], size); });
   parallel_for(motion.size(), [&](std::size_t i) {
-    if (i == 0) return;
-    motion[i].picture =
-        motion_between(pyramid_of(thumbnails[i - 1], size), pyramid_of(thumbnails[i], size), frame);
+    if (i > 0) motion[i].picture = motion_between(pyramids[i - 1], pyramids[i], frame);
   });
   return motion;
 }
