@@ -106,6 +106,10 @@ Argument Arguments::flag(const std::string& name, bool& target, const std::strin
   return Argument(app_.add_flag(name, target, description));
 }
 
+void Arguments::rare(const Argument& argument) {
+  if (!all_) argument.option_->group("");
+}
+
 Argument Arguments::named_choice(const std::string& flag, const std::vector<std::string>& names,
                                  const std::string& current, std::function<void(const std::string&)> take,
                                  const std::string& description) {

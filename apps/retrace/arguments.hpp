@@ -65,6 +65,8 @@ class Arguments {
   template <typename T>
   Argument option(const std::string& flag, T& target, const std::string& description);
   Argument flag(const std::string& name, bool& target, const std::string& description);
+  /// For few users: only --help-all shows it.
+  void rare(const Argument& argument);
 
   /// An option whose value is one of a few names.
   template <typename Choice>

@@ -35,21 +35,23 @@ void declare_survey(Arguments& arguments, SurveyFiles& files) {
       "GPS track of the walk: .gpx; .csv with time_s since the first frame, lat_deg, lon_deg; a GoPro's "
       "video; `video` or `pictures` for that in the walk's own file, or in its pictures' EXIF data");
   track.excludes(truth).excludes(trajectory.excludes(truth));
-  arguments
-      .option(
-          "--trajectory-start-s", files.trajectory_start_s,
-          "seconds that the trajectory's clock shows at the first frame [0, or by the video's creation time]")
-      .needs(trajectory);
-  arguments
-      .option(
-          "--track-start-s", files.track_start_s,
-          "seconds from a .gpx file's first point, or of a .csv file's clock, to the first frame [0, or by "
-          "the video's creation time]")
-      .needs(track);
-  arguments
-      .option("--track-name", files.track_name,
-              "of several tracks in a .gpx file the one so called, or its number from 1")
-      .needs(track);
+  arguments.rare(
+      arguments
+          .option(
+              "--trajectory-start-s", files.trajectory_start_s,
+              "seconds that the trajectory's clock shows at the first frame [0, or by the video's creation "
+              "time]")
+          .needs(trajectory));
+  arguments.rare(
+      arguments
+          .option("--track-start-s", files.track_start_s,
+                  "seconds from a .gpx file's first point, or of a .csv file's clock, to the first "
+                  "frame [0, or by the video's creation time]")
+          .needs(track));
+  arguments.rare(arguments
+                     .option("--track-name", files.track_name,
+                             "of several tracks in a .gpx file the one so called, or its number from 1")
+                     .needs(track));
 }
 
 place::Settings settings_beside(const SurveyFiles& files, place::Settings settings,
