@@ -67,7 +67,7 @@ TEST(Arguments, HelpShowsTheEverydaySettingsAndHelpAllTheRest) {
     declared.footer("Examples");
     const std::string help = app.help();
     EXPECT_THAT(help, HasSubstr("--sequence-length INT=10"));
-    EXPECT_THAT(help, HasSubstr("--enhance {standardise,local,none}"));
+    EXPECT_THAT(help, HasSubstr("--search {lines,cone,hybrid,graph,path}"));
     if (all) {
       EXPECT_THAT(help, HasSubstr("--uniqueness-window"));
     } else {
