@@ -62,8 +62,7 @@ PacketDecoder::PacketDecoder(std::string source, int threads)
     : source_(std::move(source)), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
   std::error_code ignored;
   can_reopen_ = source_ != "-" && !is_address(source_) && std::filesystem::is_regular_file(source_, ignored);
-  // Pictures wait for parts of those that they are predicted from, and threads with them; 16 are FFmpeg's
-  // most.
+  // Pictures wait for parts of those that they are predicted from. FFmpeg takes 16 threads at most.
   constexpr int kForEachCore = 4, kMost = 16;
   open(threads > 0 ? threads : std::min(kForEachCore * thread_count(), kMost));
 }
@@ -86,8 +85,8 @@ void PacketDecoder::open(int threads) {
   require(avcodec_parameters_to_context(codec_.get(), stream_->codecpar) >= 0);
   codec_->opaque = errors_.key();
   codec_->get_buffer2 = empty_buffer;
-#if LIBAVCODEC_VERSION_MAJOR < \
-    60  // later it is taken for granted; without it decoding threads wait for this one
+// Without it decoding threads wait for this one; later versions take it for granted.
+#if LIBAVCODEC_VERSION_MAJOR < 60
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
   codec_->thread_safe_callbacks = 1;

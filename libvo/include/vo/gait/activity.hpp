@@ -46,11 +46,10 @@ struct ActivitySecond {
 /// A second is gait if steps take up half of it or more. A step takes the time since the one before; the
 /// first after a pause takes as long as the next; one begun after the last takes its share. From
 /// `run_step_hz` on, gait is running, unless it is so for less than `shortest_run_s` next to walking. Any
-/// other second is standing if the picture neither grows
-/// (`kLeastGrowth_per_s`) nor flows past (`kLeastFlow_rad_s`, in it and in the 5 s around it), as it does for
-/// a camera that looks out of a window to the side. If it grows, or flows past by more than a whole turn
-/// (`rides_past`), the second is riding where no step is within 5 s, in a walk that is longer than that. It
-/// is unknown otherwise.
+/// other second is standing if the picture neither grows (`kLeastGrowth_per_s`) nor flows past
+/// (`kLeastFlow_rad_s`, in it and in the 5 s around it), as it does for a camera that looks out of a window
+/// to the side. If it grows, or flows past by more than a whole turn (`rides_past`), the second is riding
+/// where no step is within 5 s, in a walk that is longer than that. It is unknown otherwise.
 ///
 /// `signal`: at the frames of the walk; `steps`, `partial`: as detected. Seconds count from the first frame;
 /// the last may be shorter. Throws `std::invalid_argument` for options out of range. Empty for no frames;

@@ -16,8 +16,7 @@ namespace vo {
 /// Lucas and Kanade's registration by one shift, growth, roll and change of brightness for the whole picture,
 /// in least squares with Cauchy weights, from coarse to fine. `thumbnails`: grey; `frame`: the size in pixels
 /// of the pictures they are of, in which the motion is given. Only `picture` and `window` are filled.
-/// O(frames * pixels), in parallel; keeps six
-/// times the thumbnails.
+/// O(frames * pixels), in parallel; takes six times the memory of the thumbnails.
 std::vector<FrameMotion> thumbnail_motion(const ImageStack& thumbnails, cv::Size frame);
 
 }  // namespace vo
