@@ -36,13 +36,13 @@ void check_build(BuildOptions& options) {
   if (!options.import.empty()) {
     if (!options.walk.empty() || !options.name.empty() || options.settings != place::Settings{} ||
         options.survey != SurveyFiles{} || !options.places.empty() || !options.report.empty())
-      throw vo::Error("--import",
-                      "leaves no choice of a walk, a name, places, a survey, a report or settings",
-                      "--output alone: all else is in the folder");
+      throw UsageError(
+          "--import: leaves no choice of a walk, a name, places, a survey, a report or settings; expected "
+          "--output alone: all else is in the folder");
     return;
   }
   if (options.walk.empty())
-    throw vo::Error("walk", "is missing", std::string(kWalkArgument) + ", or --import");
+    throw UsageError(fmt::format("walk: is missing; expected {}, or --import", kWalkArgument));
   check_writable(options.output);
   if (!options.report.empty()) check_report(options);
   if (options.name.empty()) options.name = name_of_recording(options.walk.front());

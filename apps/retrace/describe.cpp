@@ -87,7 +87,8 @@ std::function<void()> declare_describe(Arguments& arguments) {
   arguments.option("--route", options->route,
                    "route database whose vocabulary to take [learned from the walk itself]");
   using enum place::SettingGroup;
-  arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral});
+  arguments.settings(options->settings, {kReading, kDescribing, kMotion, kOdometry, kGeneral},
+                     {"preview-width-px", "view-points"});
   arguments.common(options->common);
   arguments.footer(
       "A row for each keyframe: float32, or uint8 of thumbnails. Descriptors of two walks are comparable "

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <vo/base/error.hpp>
+
 namespace retrace {
 namespace {
 
@@ -36,6 +38,10 @@ void print_table(const place::RunEvaluation& run, const std::filesystem::path& f
 }
 
 void evaluate(const EvaluateOptions& options) {
+  const TruthOptions& given = options.truth;
+  if (!given.pairs.empty() && !given.reference_truth.empty() && given.tolerance.tolerance_frames)
+    throw vo::Error("--reference-truth", "has no effect beside --pairs and --tolerance-frames",
+                    "--tolerance-m, or --pairs alone");
   const auto [run, metrics] = evaluate_folder(options.folder, options.truth);
   if (options.common.json) {
     fmt::print("{}\n", json_text(metrics, 2));

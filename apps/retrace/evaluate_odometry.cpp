@@ -48,6 +48,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
     throw vo::Error("--output", "is for several walks", "more walks, or this left out");
   for (const std::string& folder : options.folders) check_written_by("odometry", folder);
   if (!options.truths.kitti_poses.empty()) return evaluate_kitti(options);
+  if (!options.output.empty()) prepare_run_directory(options.output, {}, true);
   std::vector<OdometryMeasured> walks;
   for (std::size_t i = 0; i < options.folders.size(); ++i) {
     place::OdometryEvaluationOptions evaluation = options.evaluation;
@@ -56,10 +57,7 @@ void evaluate_odometry(const EvaluateOdometryOptions& options) {
   }
   const OdometryMeasured all = pooled(walks);
   const std::string metrics = json_text(odometry_metrics_json(all, options.evaluation), 2) + "\n";
-  if (!options.output.empty()) {
-    fs::create_directories(options.output);
-    vo::write_file(fs::path(options.output) / "odometry_metrics.json", metrics);
-  }
+  if (!options.output.empty()) vo::write_file(fs::path(options.output) / "odometry_metrics.json", metrics);
   if (options.common.json) {
     fmt::print("{}", metrics);
     return;
@@ -75,10 +73,11 @@ std::function<void()> declare_evaluate_odometry(Arguments& arguments) {
   auto options = std::make_shared<EvaluateOdometryOptions>();
   arguments.positional("run", options->folders,
                        "folders written by `retrace odometry`, of one walk or several");
-  declare_odometry_truths(arguments, options->truths);
+  const Argument kitti = declare_odometry_truths(arguments, options->truths);
   arguments.option("-o,--output", options->output,
                    "folder for odometry_metrics.json of several walks together [PVO 5.4]");
-  declare_segments(arguments, options->evaluation, "random segments measured");
+  for (Argument& segments : declare_segments(arguments, options->evaluation, "random segments measured"))
+    segments.excludes(kitti);  // whose lengths are KITTI's
   arguments.json(options->common);
   arguments.footer(
       "Examples:\n"

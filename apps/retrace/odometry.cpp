@@ -34,6 +34,9 @@ struct OdometryOptions {
 };
 
 void odometry(const OdometryOptions& options) {
+  if (options.walk_length_m && options.settings.step_length)
+    throw vo::Error("--step-length", "has no effect beside --walk-length-m, which measures it",
+                    "one of both");
   vo::set_thread_count(options.settings.threads.value_or(0));
   place::Settings settings = place::resolve(options.settings, {.purpose = place::Purpose::kOdometry});
   place::StageOptions stages = place::stage_options(settings, true);
@@ -74,10 +77,10 @@ std::function<void()> declare_odometry(Arguments& arguments) {
   auto options = std::make_shared<OdometryOptions>();
   arguments.positional("walk", options->walk, kWalkArgument);
   arguments.option("-o,--output", options->output, "folder for the results").required();
-  Argument length = arguments.option(
-      "--walk-length-m", options->walk_length_m,
-      "metres, known length of this walk: measures the step length, for --step-length on others");
-  length.positive();
+  arguments
+      .option("--walk-length-m", options->walk_length_m,
+              "metres, known length of this walk: measures the step length, for --step-length on others")
+      .positive();
   arguments.flag("--visual-odometry", options->visual_odometry,
                  "write visual_odometry.csv and .tum as well: the camera's path, and why it was lost");
   arguments.flag("--close-loops", options->close_loops,

@@ -17,13 +17,15 @@ void declare_odometry_settings(Arguments& arguments, place::Settings& settings,
   arguments.settings(settings, {kReading, kMotion, kOdometry, kGeneral}, left_out);
 }
 
-void declare_segments(Arguments& arguments, place::OdometryEvaluationOptions& evaluation,
-                      const std::string& what) {
-  arguments.option("--segments", evaluation.segments, what + " [PVO 5.2]").range(1, 1e6);
-  arguments
-      .option("--segment-m", evaluation.segment_m, "metres of a segment [PVO 5.2: 50 indoors, 100 outdoors]")
-      .range(5, 1e6);
-  arguments.option("--seed", evaluation.seed, "of the segments' starts");
+std::vector<Argument> declare_segments(Arguments& arguments, place::OdometryEvaluationOptions& evaluation,
+                                       const std::string& what) {
+  std::vector<Argument> options{arguments.option("--segments", evaluation.segments, what + " [PVO 5.2]"),
+                                arguments.option("--segment-m", evaluation.segment_m,
+                                                 "metres of a segment [PVO 5.2: 50 indoors, 100 outdoors]"),
+                                arguments.option("--seed", evaluation.seed, "of the segments' starts")};
+  options[0].range(1, 1e6);
+  options[1].range(5, 1e6);
+  return options;
 }
 
 void check_one_for_each(const std::string& option, std::size_t files, std::size_t walks) {

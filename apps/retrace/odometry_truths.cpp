@@ -8,7 +8,7 @@
 
 namespace retrace {
 
-void declare_odometry_truths(Arguments& arguments, OdometryTruths& truths) {
+Argument declare_odometry_truths(Arguments& arguments, OdometryTruths& truths) {
   const Argument truth = arguments.option(
       "--truth", truths.paths,
       "of each walk: truth.csv, or the path as a line on a map: x_px,y_px, y downwards, north up");
@@ -19,11 +19,13 @@ void declare_odometry_truths(Arguments& arguments, OdometryTruths& truths) {
   arguments.exactly_one({truth, kitti});
   Argument scale =
       arguments.option("--map-scale-m-per-px", truths.map_scale_m_per_px, "metres of one pixel of that map");
-  scale.positive();
+  scale.positive().excludes(kitti);
   arguments.option("--map-image", truths.map_image, "that map, PNG or JPEG, to draw the trajectory over")
       .existing_file()
       .needs(scale);
-  arguments.option("--true-steps", truths.true_steps, "steps counted on each walk, where the truth has none");
+  arguments.option("--true-steps", truths.true_steps, "steps counted on each walk, where the truth has none")
+      .excludes(kitti);
+  return kitti;
 }
 
 std::vector<WalkTruthOptions> truth_of_each(const OdometryTruths& truths, std::size_t walks) {

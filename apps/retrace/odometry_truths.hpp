@@ -19,7 +19,8 @@ struct OdometryTruths {
   std::vector<std::size_t> true_steps;  ///< of each walk, or none
 };
 
-void declare_odometry_truths(Arguments& arguments, OdometryTruths& truths);
+/// Returns --kitti-poses, beside which other options have no effect.
+Argument declare_odometry_truths(Arguments& arguments, OdometryTruths& truths);
 
 /// What each of the walks is compared with; none with poses in KITTI's form. Throws `vo::Error` unless there
 /// is as much as there are walks.

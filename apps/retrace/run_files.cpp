@@ -172,7 +172,8 @@ WrittenRun localise_into(const fs::path& folder, place::Route& route, const std:
   vo::write_file(staged.path() / kRunDataFile, json_text(data));
   vo::write_file(staged.path() / "report.html", run_report(staged.path(), data));
   write_matrices(staged.path(), keeper.matrices(), route, run.matches, whole_matrices);
-  std::vector<std::string> stale{"metrics.json", "pr.csv", "errors.csv"};  // of other matches
+  // Of other matches, and of `retrace follow`.
+  std::vector<std::string> stale{"metrics.json", "pr.csv", "errors.csv", "follow.jsonl", "evaluation.html"};
   for (std::size_t i = 0; i == 0 || fs::exists(folder / fmt::format("cost_matrix-{}.png", i + 1)); ++i) {
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
     for (const char* name : {"cost_matrix{}.png", "D{}.csv", "DD{}.csv"})

@@ -49,17 +49,19 @@ TraverseFiles traverse_files(const std::vector<std::string>& given, const place:
       files[route.traverses[0].name].push_back(argument);
       continue;
     }
-    const std::size_t equals = argument.find('=');
-    const std::string name = argument.substr(0, equals);
-    if (equals == std::string::npos ||
-        std::ranges::find(route.traverses, name, &place::Traverse::name) == route.traverses.end()) {
+    const place::Traverse* named = nullptr;  // of the longest name, which may hold an equals sign itself
+    for (const place::Traverse& traverse : route.traverses)
+      if (argument.starts_with(traverse.name + "=") &&
+          (named == nullptr || traverse.name.size() > named->name.size()))
+        named = &traverse;
+    if (named == nullptr) {
       std::string names;
       for (const place::Traverse& traverse : route.traverses)
         names += (names.empty() ? "" : ", ") + traverse.name;
       throw vo::Error("--reference", fmt::format("'{}' does not name a traverse", argument),
                       "NAME=FILE, NAME being one of " + names);
     }
-    files[name].push_back(argument.substr(equals + 1));
+    files[named->name].push_back(argument.substr(named->name.size() + 1));
   }
   return files;
 }

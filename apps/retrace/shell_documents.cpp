@@ -81,9 +81,10 @@ std::string bash_completion(const CLI::App& root) {
       const auto of_option = flags_of(*option);
       flags.insert(flags.end(), of_option.begin(), of_option.end());
       const auto choices = values_of(*option);
-      if (!choices.empty() && !of_option.empty())
-        values += fmt::format("    '{} {}') words='{}' ;;\n", command->get_name(), of_option.back(),
-                              fmt::join(choices, " "));
+      if (!choices.empty())  // of a positional one, right behind the command
+        values +=
+            fmt::format("    '{} {}') words='{}' ;;\n", command->get_name(),
+                        of_option.empty() ? command->get_name() : of_option.back(), fmt::join(choices, " "));
     }
     cases += fmt::format("    {}) words='{}' ;;\n", command->get_name(), fmt::join(flags, " "));
   }
@@ -127,7 +128,11 @@ std::string zsh_completion(const CLI::App& root) {
                                                : fmt::format(":value:({})", fmt::join(choices, " ")));
       }
     }
-    cases += " \\\n        '*:file:_files' ;;\n";
+    std::string positional = "_files";
+    for (const CLI::Option* option : options_of(*command))
+      if (const auto choices = values_of(*option); flags_of(*option).empty() && !choices.empty())
+        positional = fmt::format("({})", fmt::join(choices, " "));
+    cases += fmt::format(" \\\n        '*:file:{}' ;;\n", positional);
   }
   return fmt::format(R"(#compdef retrace
 # Completions of retrace for zsh, written by `retrace completion zsh`.

@@ -3,6 +3,7 @@
 #include "memory_limit.hpp"
 
 #include <exception>
+#include <new>
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,9 @@ void run_as_team(LaunchedTeam& team, const std::function<void()>& first, const s
     if (team.rank() > 0) return serve();
     first();
     team.exchange({});  // the others may end
+  } catch (const std::bad_alloc&) {
+    team.fail("out of memory; expected more processes, or more memory for each");
+    if (team.rank() == 0) throw;
   } catch (const std::exception& error) {
     team.fail(error.what());
     if (team.rank() == 0) throw;  // one line is enough

@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include <vo/base/error.hpp>
+#include <vo/io/frame_source.hpp>
 
 namespace retrace {
 namespace {
@@ -65,7 +66,12 @@ std::vector<PairSweep> pair_sweeps(const SweepOptions& options) {
       sweeps.push_back({pair.name, std::move(of_pair), {}});
     }
   }
-  for (PairSweep& sweep : sweeps) sweep.truth = read_truth(sweep.options.truth).places;
+  for (PairSweep& sweep : sweeps) {
+    sweep.truth = read_truth(sweep.options.truth).places;
+    if (options.merge) continue;  // walks are read only for what is compared
+    for (const auto* walk : {&sweep.options.query, &sweep.options.reference})
+      vo::open_frame_source(*walk);  // refused before anything is begun anew
+  }
   return sweeps;
 }
 

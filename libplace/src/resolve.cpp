@@ -1,5 +1,6 @@
 #include "place/resolve.hpp"
 
+#include "place/describe/descriptor_options.hpp"
 #include "place/route/route.hpp"
 
 #include <fmt/format.h>
@@ -103,10 +104,11 @@ void check_together(const Settings& settings) {
   if (settings.v_min && *settings.v_min > *settings.v_max)
     throw vo::Error("v-min", fmt::format("is {} and v-max {}", *settings.v_min, *settings.v_max),
                     "v-min <= v-max");
-  if (settings.max_shift_px && is(settings.descriptor, "thumbnail") && settings.thumbnail_width &&
-      2 * *settings.max_shift_px >= *settings.thumbnail_width) {
-    throw vo::Error("max-shift-px", fmt::format("is {}", *settings.max_shift_px),
-                    "less than half of thumbnail-width");
+  if (settings.max_shift_px && has_part(settings.descriptor, "thumbnail") &&
+      2 * *settings.max_shift_px >= kShiftWidth_px) {
+    throw vo::Error(
+        "max-shift-px", fmt::format("is {}", *settings.max_shift_px),
+        fmt::format("less than {}, half of a picture's width in these pixels", kShiftWidth_px / 2));
   }
 }
 

@@ -1,5 +1,5 @@
 #include "dot_limit.hpp"
-#include "match/kernels/absolute_difference.hpp"
+#include "kernels/absolute_difference.hpp"
 #include "sad_limit.hpp"
 #include "support/random_columns.hpp"
 

@@ -31,6 +31,8 @@ class DescriptorsTest(CliTest):
                 self.assertEqual(self.npy(file), (kind, (len(frames), width), len(frames) * width * size))
                 self.assertEqual((said["keyframes"], said["width"]), (len(frames), width))
                 self.refused("describe", self.walks.reference, "-o", file, says="exists already")
+                for option in ("--preview-width-px", 320), ("--view-points", "true"):
+                    self.refused("describe", self.walks.reference, "-o", file, *option, says=option[0], code=2)
 
     def test_finds_a_walk_by_a_file_of_descriptors(self):
         route, run_folder = self.folder / "file.db", self.folder / "run"

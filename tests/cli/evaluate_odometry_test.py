@@ -65,6 +65,8 @@ class EvaluateOdometryTest(CliTest):
             truths[-1].write_text("frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n" +
                                   "".join(f"{i},{i},0,{i},0,{i},{steps if i == metres else 0}\n" for i in range(metres + 1)))
             walks.append(write_odometry(self.folder / name, [(i, 0, scale * i, 0) for i in range(metres + 1)], steps=found))
+        (self.folder / "file").write_text("")
+        self.refused("evaluate-odometry", *walks, "--truth", *truths, "-o", self.folder / "file", says="file: is no folder")
         shown = check("evaluate-odometry", *walks, "--truth", *truths, "-o", self.folder / "all")
         self.assertIn("2 walks, steps: 162, truly 160, error 3.75 %, 3.00 +- 1.41 steps a walk", shown)
         metrics = read_json(self.folder / "all" / "odometry_metrics.json")

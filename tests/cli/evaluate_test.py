@@ -36,6 +36,8 @@ class EvaluateTest(CliTest):
         inside = sum(int(row["query_frame"]) <= 150 for row in rows(run_folder / "matches.csv"))
         self.assertEqual(metrics["with_truth"], inside)
         self.assertLess(metrics["accepted"]["precision"], 0.6)
+        self.refused("evaluate", run_folder, "--pairs", pairs, "--reference-truth", self.walks.reference_truth,
+                     "--tolerance-frames", 15, says="--reference-truth: has no effect")
 
     def evaluated(self, name, *options, tolerance_m=0.05):
         check("localise", self.walks.query, "--route", self.walks.route, "-o", self.folder / name, *options)

@@ -37,7 +37,10 @@ class FollowTest(CliTest):
                                  self.walks.reference_truth, "--tolerance-m", 0.48, "--json"))
         self.assertGreater(found["accepted"]["precision"], 0.9)
         self.assertEqual((out / "report.html").read_bytes(), page)
-        self.assertTrue((out / "evaluation.html").exists())
+        evaluation = (out / "evaluation.html").read_text()
+        self.assertIn("Max-F1", evaluation)
+        for of_sequences in ("<dt>Sequence", "probability 0 or more", "<dt>Relative scale", "were found on part of a line"):
+            self.assertFalse(of_sequences in evaluation, of_sequences)
         check("follow", self.walks.query, "--route", self.walks.route, "-o", out, "--lag-s", 1, "--force")
         surer = rows(out / "matches.csv")
         self.assertEqual([row["query_frame"] for row in surer], [row["query_frame"] for row in matches])

@@ -94,13 +94,15 @@ class OdometryTest(CliTest):
         self.assertGreater(metrics["metres_per_unit"], 0)
         kitti.write_text("".join(lines[:-1]))
         self.refused("evaluate-odometry", out, "--kitti-poses", kitti, says="one for each frame of the walk")
-        self.refused("evaluate-odometry", out, "--kitti-poses", kitti, "--truth", kitti, says="--kitti-poses", code=2)
+        for option in ("--truth", kitti), ("--segment-m", 50), ("--segments", 5), ("--seed", 7), ("--true-steps", 9):
+            self.refused("evaluate-odometry", out, "--kitti-poses", kitti, *option, says="--kitti-poses", code=2)
         (out / "visual_odometry.csv").unlink()
         self.refused("evaluate-odometry", out, "--kitti-poses", kitti, says="visual_odometry.csv: does not exist")
 
     def test_refuses_odometry_it_cannot_do(self):
         walk = ("odometry", self.walks.query, "-o", self.folder / "out")
         self.refused(*walk, "--frame-rate-hz", "7", says="7 frames/s, too few to see steps; expected more than 8", leaves=("out",))
+        self.refused(*walk, "--walk-length-m", 20, "--step-length", 0.7, says="--step-length: has no effect")
         self.refused(*walk, "--camera", self.folder / "none.yml", says="none.yml: does not exist")
         calibration = self.folder / "camera.yml"
         calibration.write_text("%YAML:1.0\n---\nimage_width: 1000\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n   rows: 3\n"

@@ -55,8 +55,8 @@ class RoutesTest(CliTest):
         self.refused("inspect", self.walks.route, "--export", folder, says="is there already")
         self.refused("build", "--import", folder, "-o", back, says="--force")
         self.refused("build", "--import", folder, "-o", self.folder / "new.db", "--every", "3", "--motion", "none",
-                     says="--import: leaves no choice")
-        self.refused("build", "-o", self.folder / "new.db", says="walk: is missing")
+                     says="--import: leaves no choice", code=2)
+        self.refused("build", "-o", self.folder / "new.db", says="walk: is missing", code=2)
         (folder / "traverse-1" / "descriptors-1.npy").unlink()
         self.refused("build", "--import", folder, "-o", self.folder / "new.db", says="descriptors-1.npy: cannot be read")
 
@@ -113,7 +113,7 @@ class RoutesTest(CliTest):
         self.refused(*build, "--name", "again", "--report", page, says="already exists")
         self.assertEqual(page.read_text(), text)
         self.refused("build", "--import", self.folder, "-o", self.folder / "b.db", "--report", self.folder / "b.html",
-                     says="leaves no choice")
+                     says="leaves no choice", code=2)
 
     def test_reads_video_with_its_own_times_and_rotation(self):
         # Two seconds at 30 frames/s, then half as many for the rest: index / rate would be wrong by seconds.

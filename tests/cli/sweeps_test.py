@@ -126,6 +126,9 @@ tolerance-m = 0.1
         self.assertEqual((whole / "sweep.csv").read_text(), "".join([*lines[:3], ",".join(fields), *lines[4:]]))
         self.sweep(whole, "--force", "--threads", 2)
         self.assertEqual((whole / "sweep.csv").read_bytes(), expected)
+        self.refused("sweep", self.folder / "none.mp4", "--reference", self.walks.reference, "--query-truth", self.walks.query_truth,
+                     "--reference-truth", self.walks.reference_truth, "--tolerance-m", 0.1, "-o", whole, "--force", says="none.mp4")
+        self.assertEqual((whole / "sweep.csv").read_bytes(), expected)
 
         killed = self.folder / "killed"
         command = [RETRACE, "sweep", self.walks.query, "--reference", self.walks.reference, "--query-truth", self.walks.query_truth,

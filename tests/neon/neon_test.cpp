@@ -1,6 +1,6 @@
-#include "match/kernels/absolute_difference.hpp"
-#include "match/kernels/dot_product.hpp"
-#include "match/kernels/float_sums.hpp"
+#include "kernels/absolute_difference.hpp"
+#include "kernels/dot_product.hpp"
+#include "kernels/float_sums.hpp"
 
 #include <cstdio>
 #include <random>

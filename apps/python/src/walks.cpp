@@ -97,13 +97,14 @@ place::Run localise(const place::Route& route, const vo::Walk& walk, const py::k
 py::dict evaluate(const place::Run& run, const std::string& query_truth, const std::string& reference_truth,
                   const std::string& pairs, std::optional<double> tolerance_m,
                   std::optional<double> tolerance_frames) {
-  if (pairs.empty() == (query_truth.empty() || reference_truth.empty()))
+  if (pairs.empty() ? query_truth.empty() || reference_truth.empty() : !query_truth.empty())
     throw py::value_error("pairs, or query_truth and reference_truth, expected");
   place::GroundTruth truth;
   if (pairs.empty()) {
     truth = place::truth(query_truth, reference_truth);
   } else {
     truth.pairs = place::read_pairs(pairs);
+    if (!reference_truth.empty()) truth.reference_distance_m = place::distances_on(reference_truth);
   }
   const place::RunEvaluation found =
       place::evaluate(run, truth, {.tolerance_m = tolerance_m, .tolerance_frames = tolerance_frames});
@@ -112,12 +113,14 @@ py::dict evaluate(const place::Run& run, const std::string& query_truth, const s
   result["queries"] = e.queries;
   result["with_truth"] = e.with_truth;
   result["max_f1"] = e.best.f1;
+  result["max_f1_threshold"] = e.best.threshold;
   result["tp"] = e.best.true_positives;
   result["fp"] = e.best.false_positives;
   result["fn"] = e.best.false_negatives;
   result["precision"] = e.best.precision;
   result["recall"] = e.best.recall;
   result["auc_pr"] = e.auc_pr;
+  result["recall_at_100_precision"] = e.recall_at_100_precision;
   result["recall_at_1"] = e.recall_at_1;
   result["accepted_precision"] = found.accepted.precision;
   result["accepted_recall"] = found.accepted.recall;

@@ -142,6 +142,12 @@ def test_finds_a_walk_on_a_route(walks, tmp_path):
     assert len(run.frame) == len(run.reference_frame) == len(run.probability)
     metrics = retrace.evaluate(run, query_truth=night_csv, reference_truth=day_csv, tolerance_m=0.3)
     assert metrics["max_f1"] > 0.9
+    with pytest.raises(ValueError, match="pairs, or query_truth"):
+        retrace.evaluate(run, pairs="pairs.csv", query_truth=night_csv)
+    pairs = tmp_path / "pairs.csv"
+    pairs.write_text("query_frame,reference_frame\n" + "".join(f"{q},{r}\n" for q, r in zip(run.frame, run.reference_frame) if r >= 0))
+    by_pairs = retrace.evaluate(run, pairs=str(pairs), reference_truth=day_csv, tolerance_m=0.01)
+    assert by_pairs["precision"] == 1 and np.isfinite(by_pairs["max_f1_threshold"])
     with pytest.raises(retrace.Error, match="day: is a traverse of the route already"):
         again.add("day", retrace.read_walk(day))
     with pytest.raises(retrace.Error, match="does not exist"):

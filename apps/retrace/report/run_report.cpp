@@ -19,21 +19,26 @@ std::string percent(double share) {
 
 std::string acceptance(const RunCounts& counts) {
   if (counts.accept_score) return fmt::format("score {:g} or more", *counts.accept_score);
-  return fmt::format("probability {:g} or more", counts.accept_probability.value_or(0));
+  if (counts.accept_probability) return fmt::format("probability {:g} or more", *counts.accept_probability);
+  return "as on the route";
 }
 
 void put_counts(Page& page, const RunCounts& counts) {
-  page.headlines(
-      {{"Query keyframes", std::to_string(counts.queries), fmt::format("of {} frames", counts.query_frames)},
-       {"Accepted", std::to_string(counts.accepted), acceptance(counts)},
-       {"Refused", std::to_string(counts.matched - counts.accepted), "matched, less sure"},
-       {"Sequence", std::to_string(counts.sequence_length), "keyframes on a line"},
-       {"Relative scale", fmt::format("{:.3f}", counts.relative_scale),
-        "of the query's motion to the route's"}});
-  page.paragraph(
-      fmt::format("{} matches, {} of them accepted, were found on part of a line: within half a "
-                  "sequence of an end of either walk.",
-                  counts.partial, counts.partial_accepted));
+  std::vector<Headline> numbers{
+      {"Query keyframes", std::to_string(counts.queries), fmt::format("of {} frames", counts.query_frames)},
+      {"Accepted", std::to_string(counts.accepted), acceptance(counts)},
+      {"Refused", std::to_string(counts.matched - counts.accepted), "matched, less sure"}};
+  if (counts.sequence_length)
+    numbers.push_back({"Sequence", std::to_string(*counts.sequence_length), "keyframes on a line"});
+  if (counts.relative_scale)
+    numbers.push_back({"Relative scale", fmt::format("{:.3f}", *counts.relative_scale),
+                       "of the query's motion to the route's"});
+  page.headlines(numbers);
+  if (counts.partial)
+    page.paragraph(
+        fmt::format("{} matches, {} of them accepted, were found on part of a line: within half a "
+                    "sequence of an end of either walk.",
+                    *counts.partial, counts.partial_accepted.value_or(0)));
   for (const std::string& warning : counts.warnings) page.warning(warning);
 }
 

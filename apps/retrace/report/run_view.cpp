@@ -51,19 +51,22 @@ WalkColumns columns(const ordered_json& json, std::string name, bool query) {
 std::optional<RunCounts> read_counts(const std::filesystem::path& file) {
   const ordered_json json = read_json_object(file);
   if (json.empty()) return {};
-  const auto count = [&](const char* name) {
-    return static_cast<std::size_t>(count_in(json, name).value_or(0));
+  const auto some = [&](const char* name) -> std::optional<std::size_t> {
+    const auto number = count_in(json, name);
+    if (!number) return {};
+    return static_cast<std::size_t>(*number);
   };
+  const auto count = [&](const char* name) { return some(name).value_or(0); };
   return RunCounts{.queries = count("queries"),
                    .query_frames = count("query_frames"),
                    .matched = count("matched"),
                    .accepted = count("accepted"),
-                   .partial = count("partial"),
-                   .partial_accepted = count("partial_accepted"),
-                   .sequence_length = count("sequence_length"),
+                   .partial = some("partial"),
+                   .partial_accepted = some("partial_accepted"),
+                   .sequence_length = some("sequence_length"),
                    .accept_score = number_in(json, "accept_score"),
                    .accept_probability = number_in(json, "accept_probability"),
-                   .relative_scale = number_in(json, "relative_scale").value_or(1),
+                   .relative_scale = number_in(json, "relative_scale"),
                    .query = text_in(json, "query").value_or(""),
                    .route = text_in(json, "route").value_or(""),
                    .warnings = texts_in(json, "warnings")};

@@ -27,10 +27,10 @@ struct WalkColumns {
 
 /// The counts in summary.json.
 struct RunCounts {
-  std::size_t queries = 0, query_frames = 0, matched = 0, accepted = 0, partial = 0, partial_accepted = 0;
-  std::size_t sequence_length = 0;
-  std::optional<double> accept_score, accept_probability;
-  double relative_scale = 1;
+  std::size_t queries = 0, query_frames = 0, matched = 0, accepted = 0;
+  // What only a search of sequences has: `retrace follow` does not.
+  std::optional<std::size_t> partial, partial_accepted, sequence_length;
+  std::optional<double> accept_score, accept_probability, relative_scale;
   std::string query, route;
   std::vector<std::string> warnings;
 };

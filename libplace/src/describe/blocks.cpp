@@ -97,27 +97,30 @@ FloatRows joined(const std::vector<FloatRows>& parts) {
   return all;
 }
 
-/// Scales the axes, see kEvening.
-void even_out(const FloatRows& columns, PrincipalAxes& axes) {
-  const FloatRows along = project(columns, axes);
+/// Scales the axes, see kEvening. Returns the columns along them.
+FloatRows even_out(const FloatRows& columns, PrincipalAxes& axes) {
+  FloatRows along = project(columns, axes);
   std::vector<double> squares(along.width);
   for (std::size_t i = 0; i < along.size(); ++i)
     for (std::size_t k = 0; k < along.width; ++k)
       squares[k] += static_cast<double>(along[i][k]) * along[i][k];
   for (std::size_t k = 0; k < along.width; ++k) {
     const auto scale = static_cast<float>(std::pow(squares[k] / squares[0], -kEvening));
-    if (std::isfinite(scale))
-      for (float& value : axes.axes[k]) value *= scale;
+    if (!std::isfinite(scale)) continue;
+    for (float& value : axes.axes[k]) value *= scale;
+    for (std::size_t i = 0; i < along.size(); ++i) along[i][k] *= scale;
   }
+  return along;
 }
 
 /// Descriptors before rounding, one row each.
-FloatRows described(std::span<const Bytes> records, const BlocksModel& model) {
+FloatRows described(std::span<const Bytes> records, const std::vector<FloatRows>& vocabularies,
+                    const Projection& of_blocks, const Projection& of_columns) {
   std::vector<FloatRows> columns;
   for (const Bytes& record : records)
-    columns.push_back(columns_of(project(blocks_of(record), model.block_axes), model.vocabularies));
+    columns.push_back(columns_of(of_blocks(blocks_of(record)), vocabularies));
   FloatRows rows = make_float_rows(static_cast<std::size_t>(kColumns) * kChannels, records.size());
-  const FloatRows along = project(joined(columns), model.column_axes);
+  const FloatRows along = of_columns(joined(columns));
   for (std::size_t i = 0; i < along.size(); ++i)  // a short walk has fewer axes; the rest are 0
     std::ranges::copy(along[i],
                       rows[i / kColumns].begin() + static_cast<std::ptrdiff_t>(i % kColumns * kChannels));
@@ -163,7 +166,8 @@ BlocksModel learn_blocks(std::span<const Bytes> records) {
     model.block_axes.axes = make_float_rows(blocks.width, 1);
     model.block_axes.axes[0][0] = 1;
   }
-  const FloatRows projected = project(blocks, model.block_axes);
+  const Projection of_blocks(model.block_axes);
+  const FloatRows projected = of_blocks(blocks);
   for (std::uint32_t seed = 1; seed <= kVocabularies; ++seed)
     model.vocabularies.push_back(learn_words(projected, kWords, seed));
 
@@ -171,22 +175,23 @@ BlocksModel learn_blocks(std::span<const Bytes> records) {
       evenly_spaced(std::min(kColumnKeyframes, records.size()), records.size());
   parts.resize(fewer.size());
   vo::parallel_for(fewer.size(), [&](std::size_t i) {
-    parts[i] = columns_of(project(blocks_of(records[fewer[i]]), model.block_axes), model.vocabularies);
+    parts[i] = columns_of(of_blocks(blocks_of(records[fewer[i]])), model.vocabularies);
   });
   const FloatRows columns = joined(parts);
   model.column_axes = principal_axes(columns, kChannels);
   model.column_axes.mean.clear();
-  even_out(columns, model.column_axes);
-  model.step = quantisation_step(project(columns, model.column_axes).values);
+  model.step = quantisation_step(even_out(columns, model.column_axes).values);
   return model;
 }
 
 ColumnStack describe_blocks(std::span<const Bytes> records, const BlocksModel& model) {
   ColumnStack stack = make_column_stack(kColumns, kChannels, records.size());
+  const Projection of_blocks(model.block_axes), of_columns(model.column_axes);
   constexpr std::size_t kTogether = 8;  // keyframes processed for each reading of the axes
   vo::parallel_for((records.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
     const std::size_t first = part * kTogether, count = std::min(kTogether, records.size() - first);
-    const FloatRows rows = described(records.subspan(first, count), model);
+    const FloatRows rows =
+        described(records.subspan(first, count), model.vocabularies, of_blocks, of_columns);
     for (std::size_t i = 0; i < count; ++i) quantise(rows[i], model.step, stack, first + i);
   });
   return stack;

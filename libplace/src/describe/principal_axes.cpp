@@ -1,10 +1,8 @@
 #include "place/describe/principal_axes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,70 +15,63 @@
 namespace place {
 namespace {
 
-using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using ConstRows = Eigen::Map<const Rows>;
-
-ConstRows matrix_of(const FloatRows& rows) {
-  return {rows.values.data(), static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows.width)};
+/// Rows of floats as the columns of a matrix: the same places in memory.
+Eigen::Map<const Eigen::MatrixXf> as_columns(const FloatRows& rows) {
+  return {rows.values.data(), static_cast<Eigen::Index>(rows.width), static_cast<Eigen::Index>(rows.size())};
 }
 
-/// The products of blocks of rows, in parallel.
-void for_row_blocks(Eigen::Index rows, const std::function<void(Eigen::Index, Eigen::Index)>& body) {
-  constexpr Eigen::Index kBlock = 256;
-  vo::parallel_for(static_cast<std::size_t>((rows + kBlock - 1) / kBlock), [&](std::size_t block) {
-    const Eigen::Index first = static_cast<Eigen::Index>(block) * kBlock;
-    body(first, std::min(kBlock, rows - first));
-  });
+FloatRows as_rows(const Eigen::MatrixXf& columns) {
+  return {.width = static_cast<std::size_t>(columns.rows()),
+          .values = {columns.data(), columns.data() + columns.size()}};
 }
 
-/// Products of all columns of a matrix with each other, or of all rows, in parallel by tiles.
-Eigen::MatrixXf products_of_pairs(const Rows& matrix, bool by_columns) {
-  constexpr Eigen::Index kTile = 128;
-  const Eigen::Index size = by_columns ? matrix.cols() : matrix.rows();
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> tiles;  // of the lower triangle
-  for (Eigen::Index i = 0; i < size; i += kTile)
-    for (Eigen::Index j = 0; j <= i; j += kTile) tiles.emplace_back(i, j);
-  Eigen::MatrixXf products(size, size);
-  vo::parallel_for(tiles.size(), [&](std::size_t tile) {
-    const auto [i, j] = tiles[tile];
-    const Eigen::Index down = std::min(kTile, size - i), across = std::min(kTile, size - j);
-    if (by_columns) {
-      products.block(i, j, down, across).noalias() =
-          matrix.middleCols(i, down).transpose() * matrix.middleCols(j, across);
-    } else {
-      products.block(i, j, down, across).noalias() =
-          matrix.middleRows(i, down) * matrix.middleRows(j, across).transpose();
-    }
+std::vector<float> mean_of(const FloatRows& rows) {
+  std::vector<double> sums(rows.width);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    std::ranges::transform(sums, rows[i], sums.begin(), std::plus<>());
+  std::vector<float> mean;
+  for (const double sum : sums) mean.push_back(static_cast<float>(sum / static_cast<double>(rows.size())));
+  return mean;
+}
+
+FloatRows centred_on(const std::vector<float>& mean, FloatRows rows) {
+  vo::parallel_for(rows.size(), [&](std::size_t i) {
+    std::ranges::transform(rows[i], mean, rows[i].begin(), std::minus<>());
   });
-  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
-  return products;
+  return rows;
 }
 
 /// The eigenvectors of a symmetric matrix's largest eigenvalues, largest first.
 struct Leading {
-  Eigen::MatrixXf vectors;
-  Eigen::VectorXf values;
+  FloatRows vectors;
+  std::vector<float> values;
 };
 
-Leading leading_vectors(const Eigen::MatrixXf& symmetric, Eigen::Index wanted) {
-  const Eigen::Index size = symmetric.rows();
+Leading leading_vectors(const FloatRows& symmetric, std::size_t wanted) {
+  const std::size_t size = symmetric.size();
   // A few more than wanted, so that few iterations are enough (section 4.5 there).
-  const Eigen::Index tried = std::min(wanted + 16, size);
-  Eigen::MatrixXf basis = Eigen::MatrixXf::Identity(size, size);
+  const std::size_t tried = std::min(wanted + 16, size);
+  const RowPanels panels(symmetric);
+  FloatRows basis = make_float_rows(size, tried);
   if (tried < size) {
     constexpr int kIterations = 4;
     vo::Rng rng(1);
-    basis.resize(size, tried);
-    for (float& value : basis.reshaped()) value = static_cast<float>(rng.normal());
+    for (float& value : basis.values) value = static_cast<float>(rng.normal());
     for (int i = 0; i < kIterations; ++i) {
-      const Eigen::HouseholderQR<Eigen::MatrixXf> qr(symmetric * basis);
-      basis = qr.householderQ() * Eigen::MatrixXf::Identity(size, tried);
+      const Eigen::HouseholderQR<Eigen::MatrixXf> qr(as_columns(panels.products(basis)));
+      const auto rows = static_cast<Eigen::Index>(size), columns = static_cast<Eigen::Index>(tried);
+      basis = as_rows(qr.householderQ() * Eigen::MatrixXf::Identity(rows, columns));
     }
+  } else {
+    for (std::size_t i = 0; i < size; ++i) basis[i][i] = 1;
   }
-  const Eigen::MatrixXf within = basis.transpose() * (symmetric * basis);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(within);
-  const Eigen::MatrixXf vectors = basis * solver.eigenvectors().rightCols(wanted);
-  return {.vectors = vectors.rowwise().reverse(), .values = solver.eigenvalues().tail(wanted).reverse()};
+  const FloatRows within = RowPanels(basis).products(panels.products(basis));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(as_columns(within));
+  const auto last = static_cast<Eigen::Index>(wanted);
+  const Eigen::MatrixXf weights = solver.eigenvectors().rightCols(last).rowwise().reverse();
+  const Eigen::VectorXf values = solver.eigenvalues().tail(last).reverse();
+  return {.vectors = RowPanels::of_columns(basis).products(as_rows(weights)),
+          .values = {values.begin(), values.end()}};
 }
 
 }  // namespace
@@ -88,28 +79,20 @@ Leading leading_vectors(const Eigen::MatrixXf& symmetric, Eigen::Index wanted) {
 PrincipalAxes principal_axes(const FloatRows& vectors, std::size_t count) {
   if (vectors.size() == 0 || count == 0)
     throw std::invalid_argument("principal_axes: vectors and a count of at least 1 expected");
-  const ConstRows all = matrix_of(vectors);
-  const Eigen::RowVectorXf mean = all.colwise().mean();
-  const Rows centred = all.rowwise() - mean;
-  PrincipalAxes result{.mean = {mean.begin(), mean.end()}, .axes = {.width = vectors.width, .values = {}}};
+  PrincipalAxes result{.mean = mean_of(vectors), .axes = {.width = vectors.width, .values = {}}};
+  const FloatRows centred = centred_on(result.mean, vectors);
 
   // The products of all pairs of columns or of all pairs of rows, whichever are fewer: their leading vectors
   // are the axes, or the weights of the vectors that sum to them.
-  const bool by_columns = all.cols() <= all.rows();
-  const auto wanted = std::min(static_cast<Eigen::Index>(count), std::min(all.cols(), all.rows()));
-  const Leading leading = leading_vectors(products_of_pairs(centred, by_columns), wanted);
-  Eigen::MatrixXf axes = leading.vectors;
-  if (!by_columns) {
-    axes.resize(all.cols(), wanted);
-    for_row_blocks(all.cols(), [&](Eigen::Index first, Eigen::Index rows) {
-      axes.middleRows(first, rows).noalias() = centred.middleCols(first, rows).transpose() * leading.vectors;
-    });
-  }
-  const float largest = leading.values(0);
+  const std::size_t wanted = std::min({count, vectors.width, vectors.size()});
+  const bool by_columns = vectors.width <= vectors.size();
+  const Leading leading =
+      leading_vectors(by_columns ? products_of_columns(centred) : products_of_rows(centred), wanted);
+  FloatRows axes = by_columns ? leading.vectors : RowPanels::of_columns(centred).products(leading.vectors);
   constexpr float kRounding = 1e-6F;  // of the largest variance; anything below is rounding
-  for (Eigen::Index i = 0; i < wanted; ++i) {
-    if (!(leading.values(i) > kRounding * largest)) break;
-    Eigen::VectorXf axis = axes.col(i).normalized();
+  for (std::size_t i = 0; i < wanted && leading.values[i] > kRounding * leading.values[0]; ++i) {
+    Eigen::Map<Eigen::VectorXf> axis(axes[i].data(), static_cast<Eigen::Index>(axes.width));
+    axis.normalize();
     Eigen::Index peak = 0;
     axis.cwiseAbs().maxCoeff(&peak);
     if (axis(peak) < 0) axis = -axis;
@@ -118,20 +101,18 @@ PrincipalAxes principal_axes(const FloatRows& vectors, std::size_t count) {
   return result;
 }
 
+Projection::Projection(const PrincipalAxes& axes) : panels_(axes.axes), offset_(axes.axes.size()) {
+  if (axes.mean.empty() || offset_.empty()) return;
+  offset_ = panels_.products({.width = axes.mean.size(), .values = axes.mean}).values;
+}
+
+FloatRows Projection::operator()(const FloatRows& vectors) const {
+  if (vectors.values.empty() || offset_.empty()) return make_float_rows(offset_.size(), vectors.size());
+  return centred_on(offset_, panels_.products(vectors));
+}
+
 FloatRows project(const FloatRows& vectors, const PrincipalAxes& axes) {
-  FloatRows out = make_float_rows(axes.axes.size(), vectors.size());
-  if (out.values.empty()) return out;
-  const ConstRows all = matrix_of(vectors), along = matrix_of(axes.axes);
-  Eigen::RowVectorXf offset = Eigen::RowVectorXf::Zero(along.rows());
-  if (!axes.mean.empty()) {
-    offset = Eigen::Map<const Eigen::RowVectorXf>(axes.mean.data(), all.cols()) * along.transpose();
-  }
-  Eigen::Map<Rows> result(out.values.data(), all.rows(), along.rows());
-  for_row_blocks(all.rows(), [&](Eigen::Index first, Eigen::Index rows) {
-    result.middleRows(first, rows).noalias() = all.middleRows(first, rows) * along.transpose();
-    result.middleRows(first, rows).rowwise() -= offset;
-  });
-  return out;
+  return Projection(axes)(vectors);
 }
 
 }  // namespace place

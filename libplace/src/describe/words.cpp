@@ -1,9 +1,10 @@
 #include "place/describe/words.hpp"
 
+#include "place/describe/row_products.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
-#include <Eigen/Core>
 #include <flann/flann.hpp>
 
 namespace place {
@@ -67,19 +68,16 @@ FloatRows learn_words(const FloatRows& vectors, std::size_t count, std::uint32_t
 std::vector<std::size_t> nearest_words(const FloatRows& vectors, const FloatRows& words) {
   if (words.size() == 0 || words.width != vectors.width)
     throw std::invalid_argument("nearest_words: words of the vectors' size expected");
-  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto matrix = [](const FloatRows& rows) {
-    return Eigen::Map<const Rows>(rows.values.data(), static_cast<Eigen::Index>(rows.size()),
-                                  static_cast<Eigen::Index>(rows.width));
-  };
   // |v - w|^2 minus |v|^2, which is the same for all words.
-  Rows distance = -2 * matrix(vectors) * matrix(words).transpose();
-  distance.rowwise() += matrix(words).rowwise().squaredNorm().transpose();
+  const FloatRows products = RowPanels(words).products(vectors);
+  std::vector<float> squares(words.size());
+  for (std::size_t word = 0; word < words.size(); ++word)
+    for (const float value : words[word]) squares[word] += value * value;
   std::vector<std::size_t> nearest(vectors.size());
   for (std::size_t i = 0; i < nearest.size(); ++i) {
-    Eigen::Index least = 0;
-    distance.row(static_cast<Eigen::Index>(i)).minCoeff(&least);
-    nearest[i] = static_cast<std::size_t>(least);
+    const auto distance = [&](std::size_t word) { return squares[word] - 2 * products[i][word]; };
+    for (std::size_t word = 1; word < words.size(); ++word)
+      if (distance(word) < distance(nearest[i])) nearest[i] = word;
   }
   return nearest;
 }

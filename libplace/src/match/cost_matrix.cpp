@@ -1,6 +1,6 @@
 #include "place/match/cost_matrix.hpp"
 
-#include "match/kernels/absolute_difference.hpp"
+#include "kernels/absolute_difference.hpp"
 #include "match/second_level_cache.hpp"
 
 #include <algorithm>

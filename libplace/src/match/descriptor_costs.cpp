@@ -12,12 +12,11 @@
 namespace place {
 namespace {
 
-constexpr double kShiftWidth_px = 64;  // width of the picture that shifts refer to
-
-int shift_in_columns(const DescriptorTraits& traits, std::optional<int> max_shift_px) {
+/// A shift in columns of a descriptor that has so many.
+int shift_in_columns(const DescriptorTraits& traits, int columns, std::optional<int> max_shift_px) {
   if (!max_shift_px) return traits.max_shift;
-  const auto columns = static_cast<int>(std::lround(*max_shift_px * traits.columns / kShiftWidth_px));
-  return std::clamp(columns, 0, std::max(0, traits.columns - 1));
+  const double share = static_cast<double>(*max_shift_px) / kShiftWidth_px;
+  return std::clamp(static_cast<int>(std::lround(share * columns)), 0, std::max(0, columns - 1));
 }
 
 /// The leading channels of every column as a picture, for `candidates`.
@@ -45,10 +44,11 @@ std::unique_ptr<CostSource> descriptor_costs(const Descriptors& queries, const D
   if (const auto* images = std::get_if<vo::ImageStack>(&queries)) {
     return std::make_unique<ThumbnailCosts>(
         *images, std::get<vo::ImageStack>(references),
-        CostOptions{.max_shift_px = max_shift_px.value_or(traits.max_shift)});
+        CostOptions{.max_shift_px = shift_in_columns(traits, images->width, max_shift_px)});
   }
   if (const auto* stack = std::get_if<ColumnStack>(&queries)) {
-    const ShiftedCosineOptions options{.max_shift_columns = shift_in_columns(traits, max_shift_px)};
+    const ShiftedCosineOptions options{.max_shift_columns =
+                                           shift_in_columns(traits, traits.columns, max_shift_px)};
     return std::make_unique<ShiftedCosine>(*stack, std::get<ColumnStack>(references), options);
   }
   return std::make_unique<FloatCosts>(std::get<FloatRows>(queries), std::get<FloatRows>(references),

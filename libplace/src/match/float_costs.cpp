@@ -1,6 +1,7 @@
 #include "place/match/float_costs.hpp"
 
-#include "match/kernels/float_sums.hpp"
+#include "kernels/float_sums.hpp"
+#include "kernels/interleave.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +17,6 @@ namespace {
 
 constexpr std::size_t parts(std::size_t count, std::size_t size) {
   return (count + size - 1) / size;
-}
-
-/// Rows [first, first + count) interleaved, padded with zero rows to `lanes`.
-void interleave(const FloatRows& rows, std::size_t first, std::size_t count, std::size_t lanes, float* to) {
-  std::fill_n(to, lanes * rows.width, 0.0F);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::span<const float> row = rows[first + i];
-    for (std::size_t k = 0; k < row.size(); ++k) to[k * lanes + i] = row[k];
-  }
 }
 
 /// The length of each row in the metric.
@@ -77,8 +69,8 @@ FloatCosts::FloatCosts(const FloatRows& queries, const FloatRows& references, Me
   const std::size_t tall = kernels::float_kernels().queries;
   packed_queries_.resize(parts(query_count_, tall) * tall * queries.width);
   for (std::size_t first = 0; first < query_count_; first += tall) {
-    interleave(queries, first, std::min(tall, query_count_ - first), tall,
-               packed_queries_.data() + first * queries.width);
+    kernels::interleave(queries, {first, std::min(tall, query_count_ - first), 0, queries.width}, tall,
+                        packed_queries_.data() + first * queries.width);
   }
 }
 
@@ -96,7 +88,7 @@ void FloatCosts::compute_panel(const Costs& block, std::size_t first, std::size_
   const kernels::FloatKernels& kernel = kernels::float_kernels();
   const std::size_t tall = kernel.queries, wide = kernel.references, width = references_.width;
   std::vector<float> panel(wide * width), sums(tall * wide), scales(wide), costs(wide);
-  interleave(references_, first, count, wide, panel.data());
+  kernels::interleave(references_, {first, count, 0, width}, wide, panel.data());
   const bool cosine = metric_ == Metric::kCosine;
   if (cosine)
     std::copy_n(reference_scales_.begin() + static_cast<std::ptrdiff_t>(first), count, scales.begin());

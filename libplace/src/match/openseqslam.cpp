@@ -1,6 +1,6 @@
 #include "place/match/openseqslam.hpp"
 
-#include "match/kernels/absolute_difference.hpp"
+#include "kernels/absolute_difference.hpp"
 
 #include <algorithm>
 #include <cmath>

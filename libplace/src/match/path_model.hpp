@@ -1,6 +1,6 @@
 #pragma once
 
-#include "match/kernels/path_rows.hpp"
+#include "kernels/path_rows.hpp"
 #include "match/tree_sum.hpp"
 #include "place/match/search_lines.hpp"
 #include "place/match/search_path.hpp"

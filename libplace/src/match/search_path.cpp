@@ -1,6 +1,6 @@
 #include "place/match/search_path.hpp"
 
-#include "match/kernels/path_rows.hpp"
+#include "kernels/path_rows.hpp"
 #include "match/messages.hpp"
 #include "match/part_searches.hpp"
 #include "match/path_model.hpp"

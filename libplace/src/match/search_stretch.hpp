@@ -1,6 +1,6 @@
 #pragma once
 
-#include "match/kernels/line_sums.hpp"
+#include "kernels/line_sums.hpp"
 #include "match/line_runs.hpp"
 #include "place/match/sequence_searcher.hpp"
 

@@ -1,6 +1,6 @@
 #include "place/match/shifted_cosine.hpp"
 
-#include "match/kernels/dot_product.hpp"
+#include "kernels/dot_product.hpp"
 #include "match/second_level_cache.hpp"
 #include "match/shift_plan.hpp"
 

@@ -151,6 +151,9 @@ class StoredSearch::State {
     if (route.traverses.size() > 1 && resolved.fuse_traverses.value_or(true))
       throw vo::Error("fuse-traverses", fmt::format("{}, with {} traverses", how, route.traverses.size()),
                       "false, or a route of one traverse");
+    // What a shift costs a thumbnail is learned from all references (`ThumbnailCosts`).
+    if (resolved.max_shift_px.value_or(0) > 0 && has_part(resolved.descriptor, "thumbnail"))
+      throw vo::Error("max-shift-px of thumbnails", how, "0");
     if (team_.size() == 1) return;
     if (search_method(resolved.search.value_or("path")).search_part == nullptr)
       throw vo::Error(fmt::format("search {}", *resolved.search), how, "path or lines");

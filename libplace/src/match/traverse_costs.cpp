@@ -19,6 +19,8 @@ namespace {
 
 /// Mean metres between neighbouring keyframes of a traverse.
 double keyframe_spacing_m(const Traverse& traverse) {
+  if (traverse.keyframes.size() < 2)
+    throw vo::Error(fmt::format("traverse '{}'", traverse.name), "has no two keyframes", "a longer walk");
   const Keyframe& first = traverse.keyframes.front();
   const Keyframe& last = traverse.keyframes.back();
   if (!first.distance_m || !last.distance_m || !(*last.distance_m > *first.distance_m)) {

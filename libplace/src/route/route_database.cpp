@@ -171,6 +171,7 @@ void read_previews(const std::filesystem::path& path, Route& route, std::size_t 
     throw vo::Error(path.string(), "has changed since it was read", "no build on it meanwhile");
   std::vector<Keyframe>& all = route.traverses.at(traverse).keyframes;
   for (const std::size_t keyframe : keyframes) {
+    if (!all.at(keyframe).preview_jpeg.empty()) continue;  // asked for before
     Statement preview = database.prepare("SELECT jpeg FROM preview WHERE traverse = ? AND position = ?");
     preview.bind(static_cast<std::int64_t>(traverse) + 1).bind(static_cast<std::int64_t>(keyframe));
     if (!preview.step()) continue;
@@ -188,8 +189,11 @@ bool looks_like_route(const std::filesystem::path& path) {
   return file.read(begin.data(), begin.size()) && std::string_view(begin.data(), begin.size()) == kSqlite;
 }
 
-void write_route(const std::filesystem::path& path, const Route& route) {
+void write_route(const std::filesystem::path& named, const Route& route) {
   check(route);
+  // A link goes on naming the route: what it names is replaced.
+  const std::filesystem::path path =
+      std::filesystem::is_symlink(named) ? std::filesystem::weakly_canonical(named) : named;
   if (std::filesystem::is_directory(path)) throw vo::Error(path.string(), "is a folder", "a file to write");
   vo::remove_abandoned(path);
   vo::AtomicFile file(path);

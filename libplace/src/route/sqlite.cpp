@@ -209,11 +209,6 @@ void Database::check_stored_values() const {
   if (made) fail(database_.get(), path_, SQLITE_CORRUPT);
 }
 
-Database::Copy::~Copy() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
-}
-
 void Database::open(const std::filesystem::path& file, Mode mode) {
   const int flags =
       mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
@@ -241,11 +236,11 @@ void Database::open_unwritable(const std::filesystem::path& file) {
     if (::mkdtemp(folder.data()) == nullptr)
       throw vo::Error(path_, "has changes beside it (-wal) and there is no folder to copy both to",
                       "a folder for temporary files (TMPDIR)");
-    copy_ = std::make_unique<Copy>(Copy{folder});
-    fs::copy_file(file, copy_->folder / "route.db", error);
-    if (!error) fs::copy_file(changes, copy_->folder / "route.db-wal", error);
+    copy_ = std::make_unique<vo::PartialPath>(folder);
+    fs::copy_file(file, copy_->path() / "route.db", error);
+    if (!error) fs::copy_file(changes, copy_->path() / "route.db-wal", error);
     if (error) throw vo::Error(path_, fmt::format("cannot be copied to {}: {}", folder, error.message()));
-    open(copy_->folder / "route.db", Mode::kCreate);
+    open(copy_->path() / "route.db", Mode::kCreate);
     return;
   }
   std::string uri = "file:";
@@ -263,16 +258,20 @@ void Database::open_unwritable(const std::filesystem::path& file) {
 
 void fold_changes(const std::filesystem::path& file) {
   std::error_code ignored;
-  const std::filesystem::path changes = file.string() + "-wal", index = file.string() + "-shm";
-  if (std::filesystem::exists(changes, ignored)) {
+  const std::filesystem::path changes = file.string() + "-wal", index = file.string() + "-shm",
+                              journal = file.string() + "-journal";
+  if (std::filesystem::exists(changes, ignored) || std::filesystem::exists(journal, ignored)) {
     sqlite3* database = nullptr;
     if (sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READWRITE, nullptr) == SQLITE_OK)
-      sqlite3_exec(database, "PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE", nullptr,
-                   nullptr, nullptr);
+      // The first of these reads, which takes back what a killed program had begun (`-journal`).
+      sqlite3_exec(database,
+                   "PRAGMA schema_version; PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE",
+                   nullptr, nullptr, nullptr);
     sqlite3_close(database);
   }
   std::filesystem::remove(changes, ignored);
   std::filesystem::remove(index, ignored);
+  std::filesystem::remove(journal, ignored);
 }
 
 Statement Database::prepare(std::string_view sql) const {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <vo/io/partial_path.hpp>
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -90,25 +92,20 @@ class Database {
   void open_unwritable(const std::filesystem::path& file);
   void distrust(const std::filesystem::path& file);
 
-  /// A folder that is removed with its contents.
-  struct Copy {
-    std::filesystem::path folder;
-    ~Copy();
-  };
   /// What is left of the limits on reading.
   struct Reading {
     std::int64_t allowance = 0;  ///< bytes
     std::int64_t steps = 0;      ///< of SQLite's machine
   };
   std::string path_;
-  Reading whole_;                     ///< the limits as they were at first
-  std::unique_ptr<Reading> reading_;  ///< none while writing; outlives the connection
-  std::unique_ptr<Copy> copy_;        ///< of the file and its changes; outlives the connection
+  Reading whole_;                          ///< the limits as they were at first
+  std::unique_ptr<Reading> reading_;       ///< none while writing; outlives the connection
+  std::unique_ptr<vo::PartialPath> copy_;  ///< of the file and its changes; outlives the connection
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// Merges changes that another program left in the `-wal` next to a file into it, so that the file can be
-/// replaced: SQLite would apply them to any file of that name.
+/// Merges changes that another program left next to a file (`-wal`) into it, or takes back those it had begun
+/// (`-journal`), so that the file can be replaced: SQLite would apply them to any file of that name.
 void fold_changes(const std::filesystem::path& file);
 
 }  // namespace place::sqlite

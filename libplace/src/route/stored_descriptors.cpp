@@ -83,8 +83,8 @@ StoredDescriptors::StoredDescriptors(const std::filesystem::path& path, std::siz
   while (form.step()) {
     State::Kind kind{form.text(), form.integer(), form.integer(), 0};
     const std::optional<Descriptors> one = rows::make_of_form(kind.form, kind.width, kind.height, 1);
-    if (!one) rows::damaged(state_->path, "the size of its descriptors is no size");
-    kind.bytes = rows::form_of(*one).bytes;
+    if (one) kind.bytes = rows::form_of(*one).bytes;
+    if (kind.bytes == 0) rows::damaged(state_->path, "the size of its descriptors is no size");
     state_->kinds.push_back(std::move(kind));
   }
 }

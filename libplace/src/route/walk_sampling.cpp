@@ -30,6 +30,7 @@ std::vector<std::string> motion_warnings(const vo::Walk& walk, const vo::MotionM
 /// Where one walk is in metres and the other is not (steps were seen in one of them only), both are assumed
 /// to have the same mean speed; `relative_scale` corrects the rest.
 void to_mean_speed(const Traverse& reference, const vo::Walk& walk, std::vector<double>& displacement) {
+  if (reference.keyframes.empty()) return;
   double duration_s = walk.time_s.back();
   for (const vo::ClockGap& gap : walk.gaps)
     if (vo::parts_walk(gap)) duration_s -= gap.length_s;

@@ -1,5 +1,6 @@
 #include "vo/gait/walker.hpp"
 
+#include "vo/base/clock.hpp"
 #include "vo/base/frame_range.hpp"
 #include "vo/base/median.hpp"
 
@@ -94,7 +95,9 @@ std::vector<bool> rides_past(const GaitSignal& signal, std::span<const Flow> ste
   for (std::size_t begin = 0, end = 0; begin < steady.size(); begin = std::max(end, begin + 1)) {
     Flow angle;
     for (end = begin; end < steady.size() && flows(end) && one_way(begin, end); ++end) {
-      const double frame_s = end > 0 ? signal.time_s[end] - signal.time_s[end - 1] : 0;
+      // Of a gap nothing is known but its last frame.
+      const double frame_s =
+          end > 0 ? std::min(signal.time_s[end] - signal.time_s[end - 1], kShortestGap_s) : 0;
       angle.right_rad += steady[end].right_rad * frame_s;
       angle.down_rad += steady[end].down_rad * frame_s;
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace vo {
 
@@ -26,6 +27,15 @@ std::optional<GreyRange> range_of(std::span<const cv::Mat> pictures) {
   std::nth_element(values.begin(), high, values.end());
   if (!(*high > black)) return std::nullopt;
   return GreyRange{.black = black, .white = *high};
+}
+
+cv::Mat thinned(const cv::Mat& picture) {
+  constexpr double kMost_px = 1e6;
+  const double scale = std::sqrt(kMost_px / static_cast<double>(picture.total()));
+  if (scale >= 1) return picture.clone();
+  cv::Mat thin;
+  cv::resize(picture, thin, {}, scale, scale, cv::INTER_NEAREST);
+  return thin;
 }
 
 cv::Mat stretched(const cv::Mat& picture, const GreyRange& range) {

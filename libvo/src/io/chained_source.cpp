@@ -67,7 +67,9 @@ class ChainedSource final : public FrameSource {
     const std::optional<double> before_utc_s = current_->start_utc_s();
     ++number_;
     current_ = open_frame_source(walks_[number_], options_);
-    const double length_s = file_time_s_ + step_s_;
+    // A file of one frame does not say how long that is shown.
+    const double step_s = step_s_ > 0 ? step_s_ : 1 / options_.frame_rate_hz.value_or(kImageRate_hz);
+    const double length_s = file_time_s_ + step_s;
     begin_s_ += length_s + pause_s(before_utc_s, length_s);
     file_time_s_ = 0;
   }

@@ -296,7 +296,7 @@ std::string csv_cell(std::string_view text) {
                      !text.ends_with(' ') && !text.starts_with('\'');
   if (plain) return std::string(text);
   std::string cell = "\"";
-  for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+  for (const char c : text) cell.append(c == '"' ? 2 : 1, c == '\n' || c == '\r' ? ' ' : c);
   return cell + '"';
 }
 

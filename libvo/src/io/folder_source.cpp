@@ -84,11 +84,11 @@ class FolderSource final : public SampledSource {
   [[nodiscard]] std::vector<cv::Mat> sample(std::size_t count) const override {
     std::vector<cv::Mat> pictures;
     if (!look_ahead_) return pictures;
-    for (const cv::Mat& image : read_some(count)) {
-      if (image.size() != size_) continue;
+    for_some(count, [&](const cv::Mat& image) {
+      if (image.size() != size_) return;
       pictures.push_back(
           grey_of(image.depth() == CV_8U ? image : stretched(image, range_.value_or(GreyRange()))));
-    }
+    });
     return pictures;
   }
 
@@ -122,15 +122,12 @@ class FolderSource final : public SampledSource {
     return times_s_.empty() ? static_cast<double>(position) / rate_hz_ : times_s_[position];
   }
 
-  /// Images from all over the folder, those that can be read.
-  [[nodiscard]] std::vector<cv::Mat> read_some(std::size_t count) const {
-    std::vector<cv::Mat> images;
+  /// Calls `use` with images from all over the folder, those that can be read.
+  template <typename Use>
+  void for_some(std::size_t count, const Use& use) const {
     const std::size_t all = std::min(count, files_.size());
-    for (std::size_t i = 0; i < all; ++i) {
-      cv::Mat image = read_image(files_[i * files_.size() / all]);
-      if (!image.empty()) images.push_back(std::move(image));
-    }
-    return images;
+    for (std::size_t i = 0; i < all; ++i)
+      if (const cv::Mat image = read_image(files_[i * files_.size() / all]); !image.empty()) use(image);
   }
 
   void leave_out(const std::string& file) {
@@ -146,10 +143,10 @@ class FolderSource final : public SampledSource {
   cv::Mat in_8_bits(const cv::Mat& image) {
     if (image.depth() == CV_8U) return image;
     if (!range_) {
-      std::vector<cv::Mat> deep{image};
-      for (cv::Mat& other : read_some(look_ahead_ ? kSamples : 0)) {
-        if (other.depth() != CV_8U) deep.push_back(std::move(other));
-      }
+      std::vector<cv::Mat> deep{thinned(image)};
+      for_some(look_ahead_ ? kSamples : 0, [&](const cv::Mat& other) {
+        if (other.depth() != CV_8U) deep.push_back(thinned(other));
+      });
       range_ = range_of(deep).value_or(GreyRange());
     }
     return stretched(image, *range_);

@@ -160,7 +160,9 @@ bool PacketDecoder::damaged() const {
 
 void PacketDecoder::begin_again_serially() {
   const std::int64_t given = given_;
+  const double end_s = report_.end_s;
   open(1);
+  report_.end_s = end_s;  // of the frames that were given already
   while (given_ < given && receive() != nullptr) ++given_;
 }
 

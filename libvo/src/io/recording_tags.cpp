@@ -21,21 +21,20 @@ std::optional<std::string_view> tag(const AVFormatContext& format, const AVStrea
   return std::nullopt;
 }
 
-std::optional<double> start_utc_s(const AVFormatContext& format, const AVStream& stream) {
+std::optional<double> created_utc_s(const AVFormatContext& format, const AVStream& stream) {
   constexpr double kYear2000 = 946684800;
   const auto dated = tag(format, stream, {"com.apple.quicktime.creationdate", "creation_time"});
-  std::optional<double> time_s = dated ? parse_iso_time(*dated) : std::nullopt;
-  if (!time_s || *time_s < kYear2000) return std::nullopt;
-  if (tag(format, stream, {"com.android.version"}) && format.duration > 0)
-    *time_s -= static_cast<double>(format.duration) / AV_TIME_BASE;
-  return time_s;
+  const std::optional<double> time_s = dated ? parse_iso_time(*dated) : std::nullopt;
+  return time_s && *time_s >= kYear2000 ? time_s : std::nullopt;
 }
 
 }  // namespace
 
 RecordingTags recording_tags(const AVFormatContext& format, const AVStream& stream,
                              std::optional<double> rate_hz) {
-  RecordingTags tags{.start_utc_s = start_utc_s(format, stream)};
+  RecordingTags tags{.created_utc_s = created_utc_s(format, stream),
+                     .created_at_end = tag(format, stream, {"com.android.version"}).has_value(),
+                     .capture_rate_hz = {}};
   const auto text = tag(format, stream, {"com.android.capture.fps"});
   const auto capture = text ? parse_number(*text) : std::nullopt;
   constexpr double kOther = 1.5;

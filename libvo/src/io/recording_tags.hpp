@@ -8,9 +8,10 @@ namespace vo {
 
 /// What a video's container says of the recording.
 struct RecordingTags {
-  std::optional<double> start_utc_s;  ///< seconds since 1970 at its beginning
-  std::optional<double>
-      capture_rate_hz;  ///< frames per second of the camera, where they play at another rate
+  std::optional<double> created_utc_s;  ///< seconds since 1970
+  bool created_at_end = false;          ///< or at the beginning
+  /// Frames per second of the camera, where they play at another rate.
+  std::optional<double> capture_rate_hz;
 };
 
 /// Reads them: `creation_time`, or Apple's `creationdate`, which has a time zone. Android writes its creation

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -48,7 +49,8 @@ std::optional<double> expected_end_s(const PacketDecoder& decoder) {
 template <typename Convert>
 std::vector<cv::Mat> look_ahead(const std::string& source, std::size_t count, const Convert& convert) {
   std::vector<cv::Mat> pictures;
-  if (source == "-" || source.find("://") != std::string::npos) return pictures;
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(source, unknown)) return pictures;  // a pipe gives its bytes once
   PacketDecoder decoder(source, 1);
   const double begin_s =
       decoder.stream().start_time != AV_NOPTS_VALUE ? decoder.seconds(decoder.stream().start_time) : 0;
@@ -74,7 +76,9 @@ class VideoSource final : public SampledSource {
         upright_(upright_of(decoder_.format(), decoder_.stream())),
         rate_hz_(nominal_rate_hz(decoder_)),
         tags_(recording_tags(decoder_.format(), decoder_.stream(), rate_hz_)) {
-    if (tags_.capture_rate_hz && !options_.frame_rate_hz)
+    if (options_.frame_rate_hz && rate_hz_)
+      time_scale_ = *rate_hz_ / *options_.frame_rate_hz;
+    else if (tags_.capture_rate_hz)
       time_scale_ = time_scale(*rate_hz_, *tags_.capture_rate_hz);
     const AVFrame* first = decoder_.next();
     if (first == nullptr) throw Error(name_, "holds no frame that can be decoded", "a video");
@@ -105,7 +109,12 @@ class VideoSource final : public SampledSource {
     return std::llround(static_cast<double>(decoder_.format().duration) / AV_TIME_BASE * *rate_hz_);
   }
 
-  [[nodiscard]] std::optional<double> start_utc_s() const override { return tags_.start_utc_s; }
+  [[nodiscard]] std::optional<double> start_utc_s() const override {
+    if (!tags_.created_utc_s || !tags_.created_at_end) return tags_.created_utc_s;
+    const auto playing_s =
+        static_cast<double>(std::max<std::int64_t>(decoder_.format().duration, 0)) / AV_TIME_BASE;
+    return *tags_.created_utc_s - time_scale_ * playing_s;
+  }
 
   [[nodiscard]] std::vector<std::string> warnings() const override;
 
@@ -113,11 +122,11 @@ class VideoSource final : public SampledSource {
   void find_range(const AVFrame& first) {
     const cv::Mat deep = FramePictures::deep_grey(first);
     if (deep.empty()) return;
-    std::vector<cv::Mat> pictures{deep.clone()};
+    std::vector<cv::Mat> pictures{thinned(deep)};
     if (options_.look_ahead) {
       std::ranges::move(
           look_ahead(source_, kSamples,
-                     [](const AVFrame& frame) { return FramePictures::deep_grey(frame).clone(); }),
+                     [](const AVFrame& frame) { return thinned(FramePictures::deep_grey(frame)); }),
           std::back_inserter(pictures));
     }
     range_ = range_of(pictures).value_or(GreyRange());
@@ -150,13 +159,13 @@ class VideoSource final : public SampledSource {
     std::optional<double> stamp_s;
     if (frame.best_effort_timestamp != AV_NOPTS_VALUE)
       stamp_s = time_scale_ * decoder_.seconds(frame.best_effort_timestamp);
-    if (count_ == 0) {
-      origin_s_ = stamp_s.value_or(0);
-    } else if (stamp_s && *stamp_s - origin_s_ > last_time_s_) {
-      last_time_s_ = *stamp_s - origin_s_;
+    constexpr double kUsualRate_hz = 30;
+    const double next_s = count_ == 0 ? 0 : last_time_s_ + time_scale_ / rate_hz_.value_or(kUsualRate_hz);
+    if (stamp_s && !origin_s_) origin_s_ = *stamp_s - next_s;  // streams may begin with frames of no time
+    if (stamp_s && (count_ == 0 || *stamp_s - *origin_s_ > last_time_s_)) {
+      last_time_s_ = *stamp_s - *origin_s_;
     } else {
-      constexpr double kUsualRate_hz = 30;
-      last_time_s_ += time_scale_ / rate_hz_.value_or(kUsualRate_hz);
+      last_time_s_ = next_s;
       ++untimed_;
     }
     return last_time_s_;
@@ -176,7 +185,7 @@ class VideoSource final : public SampledSource {
   cv::Size size_;  ///< of the pictures, as they are stored
   std::int64_t count_ = 0;
   std::int64_t untimed_ = 0;
-  double origin_s_ = 0;
+  std::optional<double> origin_s_;  ///< the stream's time of the first frame
   double last_time_s_ = 0;
 };
 
@@ -209,7 +218,7 @@ std::vector<std::string> VideoSource::warnings() const {
     all.push_back(
         fmt::format("{}: {} frames have no usable time; the nominal rate is used for them", name_, untimed_));
   }
-  if (time_scale_ != 1) {
+  if (tags_.capture_rate_hz && !options_.frame_rate_hz) {
     all.push_back(
         fmt::format("{}: recorded at {:.4g} frames/s, as its tag says, and played at {:.4g}; times are those "
                     "of the recording "

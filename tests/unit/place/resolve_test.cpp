@@ -249,10 +249,13 @@ TEST(Resolve, SettingsThatGoTogether) {
   expect_refused(file, kRoute, "motion-file: has no effect: motion is sad");
 
   Settings shift;
-  shift.descriptor = "thumbnail";
-  shift.thumbnail_width = 16;
-  shift.max_shift_px = 8;
-  expect_refused(shift, {}, "max-shift-px: is 8; expected less than half of thumbnail-width");
+  shift.max_shift_px = 32;
+  for (const char* thumbnails : {"thumbnail", "blocks+thumbnail"}) {
+    shift.descriptor = thumbnails;
+    expect_refused(shift, {}, "max-shift-px: is 32; expected less than 32, half of a picture's width");
+  }
+  shift.descriptor = "blocks";
+  EXPECT_EQ(place::resolve(shift, {}).max_shift_px, 32);
 
   Settings camera;
   camera.motion = "steps";

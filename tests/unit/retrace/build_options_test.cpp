@@ -48,7 +48,7 @@ TEST(BuildOptions, AFolderIsImportedAlone) {
   const auto with = [&](const auto& give) {
     BuildOptions options = alone;
     give(options);
-    EXPECT_THROW_WITH(check_build(options), vo::Error, "--import: leaves no choice of a walk");
+    EXPECT_THROW_WITH(check_build(options), retrace::UsageError, "--import: leaves no choice of a walk");
   };
   with([](BuildOptions& o) { o.walk = {"day.mp4"}; });
   with([](BuildOptions& o) { o.name = "day"; });
@@ -57,7 +57,7 @@ TEST(BuildOptions, AFolderIsImportedAlone) {
   with([](BuildOptions& o) { o.places = "places.csv"; });
   with([](BuildOptions& o) { o.report = "day.html"; });
   BuildOptions neither;
-  EXPECT_THROW_WITH(check_build(neither), vo::Error, "walk: is missing");
+  EXPECT_THROW_WITH(check_build(neither), retrace::UsageError, "walk: is missing");
 }
 
 TEST(BuildOptions, AReportIsANewFileOfItsOwn) {

@@ -37,6 +37,19 @@ TEST(SettingsFile, ReadsBackWhatIsGiven) {
   EXPECT_EQ(retrace::read_settings_file(folder.write("a.toml", retrace::to_toml(settings))), settings);
 }
 
+TEST(SettingsFile, ANumberSignInQuotesIsNoComment) {
+  const TemporaryFolder folder;
+  place::Settings settings;
+  settings.camera = "cam #2.yml";
+  EXPECT_EQ(retrace::read_settings_file(folder.write("a.toml", retrace::to_toml(settings))), settings);
+  settings = {};
+  settings.motion = "sad";
+  settings.every = 3;
+  EXPECT_EQ(retrace::read_settings_file(
+                folder.write("b.toml", "# of 'a walk\nmotion = \"sad\" # why \"not\"\nevery = 3 # it's\n")),
+            settings);
+}
+
 TEST(SettingsFile, NamesFileAndKey) {
   const TemporaryFolder folder;
   const auto refused = [&](const char* text, const char* said) {

@@ -28,9 +28,12 @@ class ShellDocuments : public testing::Test {
     arguments.option("-o,--output", output_, "a file [of 'routes': all]");
     arguments.settings(settings_, {place::SettingGroup::kMotion});
     arguments.exactly_one({arguments.option("--pairs", pairs_, "landmarks")});
+    root_.add_subcommand("completion", "of words")
+        ->add_option("shell", shell_, "which")
+        ->check(CLI::IsMember({"bash", "zsh"}));
   }
   CLI::App root_{"about", "retrace"};
-  std::string walk_, output_, pairs_;
+  std::string walk_, output_, pairs_, shell_;
   place::Settings settings_;
 };
 
@@ -57,6 +60,7 @@ TEST_F(ShellDocuments, BashCompletesCommandsFlagsAndChoices) {
   EXPECT_EQ(completed("build --out", 2), "--output\n");
   EXPECT_EQ(completed("build --pa", 2), "--pairs\n");
   EXPECT_EQ(completed("build --motion st", 3), "steps\n");
+  EXPECT_EQ(completed("completion ba", 2), "bash\n");
 }
 
 TEST_F(ShellDocuments, ZshNamesFlagsWithDescriptionsThatDoNotEndTheSpecification) {
@@ -65,6 +69,7 @@ TEST_F(ShellDocuments, ZshNamesFlagsWithDescriptionsThatDoNotEndTheSpecification
   EXPECT_THAT(script, HasSubstr("'build:make a route s database'"));
   EXPECT_THAT(script, HasSubstr("'--output[a file \\[of  routes \\: all\\]]:value:_files'"));
   EXPECT_THAT(script, HasSubstr(":value:(auto sad steps"));
+  EXPECT_THAT(script, HasSubstr("'*:file:(bash zsh)'"));
 }
 
 TEST_F(ShellDocuments, AManualPageListsArgumentsAndOptions) {

@@ -8,6 +8,9 @@
 
 namespace place {
 
+/// The width of the picture that settings of shifts count pixels of.
+inline constexpr int kShiftWidth_px = 64;
+
 /// How rows of floats are compared; lower is more alike.
 enum class Metric {
   kCosine,  ///< 1 - cosine
@@ -36,10 +39,15 @@ struct DescriptorFileOptions {
 /// Which descriptor, and the settings of each.
 struct DescriptorOptions {
   std::string name = "blocks";          ///< or several joined by '+'
-  std::optional<int> max_shift_px;      ///< of a picture 64 wide; none: the descriptor's own
+  std::optional<int> max_shift_px;      ///< of a picture kShiftWidth_px wide; none: the descriptor's own
   vo::PatchNormalisationOptions patch;  ///< of `thumbnail`
   NetworkOptions network;
   DescriptorFileOptions file;
 };
+
+/// Whether a descriptor's name is `part`, or joins it with others.
+inline bool has_part(const std::optional<std::string>& name, const std::string& part) {
+  return name && ("+" + *name + "+").find("+" + part + "+") != std::string::npos;
+}
 
 }  // namespace place

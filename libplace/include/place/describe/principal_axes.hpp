@@ -1,6 +1,7 @@
 #pragma once
 
 #include "place/describe/float_rows.hpp"
+#include "place/describe/row_products.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -22,7 +23,21 @@ struct PrincipalAxes {
 /// vectors or for a count of 0. O(vectors * width * min(vectors, width)).
 PrincipalAxes principal_axes(const FloatRows& vectors, std::size_t count);
 
-/// The vectors minus `mean` (unless empty), along each axis; in parallel over the vectors.
+/// Brings vectors to axes. The axes are arranged once, for any number of calls.
+class Projection {
+ public:
+  explicit Projection(const PrincipalAxes& axes);
+
+  /// The vectors minus `mean` (unless empty), along each axis; in parallel over the vectors. Throws
+  /// `std::invalid_argument` for vectors of another length.
+  FloatRows operator()(const FloatRows& vectors) const;
+
+ private:
+  RowPanels panels_;
+  std::vector<float> offset_;  ///< the mean along each axis
+};
+
+/// The same, once.
 FloatRows project(const FloatRows& vectors, const PrincipalAxes& axes);
 
 }  // namespace place

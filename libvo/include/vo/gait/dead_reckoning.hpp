@@ -10,7 +10,8 @@ namespace vo {
 
 /// Settings of `dead_reckon` and `step_displacement_m`.
 struct DeadReckoningOptions {
-  /// The whole step is made at the frame it is found at, in the direction of that frame's heading [PVO 4.6].
+  /// A step goes in the direction of the heading at the frame it is found at [PVO 4.6]; left and right ones
+  /// keep their own times.
   bool as_published = false;
   double pause_s = 1.5;  ///< longest step, seconds; before a later one the walker paused
 };

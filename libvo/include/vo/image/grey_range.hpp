@@ -19,6 +19,9 @@ struct GreyRange {
 /// one value. NaN are skipped. O(pixels).
 std::optional<GreyRange> range_of(std::span<const cv::Mat> pictures);
 
+/// At most a million of a picture's pixels, evenly spread: enough for `range_of`, whatever the camera.
+cv::Mat thinned(const cv::Mat& picture);
+
 /// The picture in 8 bits, `black` and below 0, `white` and above 255, linear between; of any depth and
 /// channels.
 cv::Mat stretched(const cv::Mat& picture, const GreyRange& range);

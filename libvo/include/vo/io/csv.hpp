@@ -75,8 +75,9 @@ class CsvTable {
 /// is anything else.
 std::optional<double> parse_number(std::string_view text, bool decimal_commas = false);
 
-/// A text as a cell that reads back as the same: in double quotes where it holds a separator, a quote, a `#`,
-/// a line break, or spaces at an end, or begins with an apostrophe [RFC 4180].
+/// A text as a cell that reads back as the same, but for spaces at its ends, which readers take away, and
+/// line breaks, which become spaces: in double quotes where it holds a separator, a quote or a `#`, or begins
+/// with an apostrophe [RFC 4180].
 std::string csv_cell(std::string_view text);
 
 }  // namespace vo

@@ -62,11 +62,15 @@ TEST(DescriptorCosts, OfColumnsAreTheShiftedCosine) {
 }
 
 TEST(DescriptorCosts, OfPixelsAreTheAbsoluteDifference) {
-  const vo::ImageStack a = test_support::random_images(8, 4, 3, 1),
-                       b = test_support::random_images(8, 4, 5, 2);
-  EXPECT_EQ(cost_matrix(*descriptor_costs(a, b, {.columns = 8})).values, place::cost_matrix(a, b).values);
-  EXPECT_EQ(cost_matrix(*descriptor_costs(a, b, {.columns = 8}, 2)).values,
-            place::cost_matrix(a, b, {.max_shift_px = 2}).values);
+  for (const int width : {64, 128, 8}) {
+    const vo::ImageStack a = test_support::random_images(width, 4, 3, 1),
+                         b = test_support::random_images(width, 4, 5, 2);
+    EXPECT_EQ(cost_matrix(*descriptor_costs(a, b, {.columns = width})).values,
+              place::cost_matrix(a, b).values);
+    // An eighth of the picture, however wide it is.
+    EXPECT_EQ(cost_matrix(*descriptor_costs(a, b, {.columns = width}, 8)).values,
+              place::cost_matrix(a, b, {.max_shift_px = width / 8}).values);
+  }
 }
 
 TEST(DescriptorCosts, RefuseFormsThatDiffer) {

@@ -223,4 +223,13 @@ TEST_F(StoredSearchTest, RefusesAFileThatIsNoLongerTheRouteThatWasRead) {
                     "has changed since it was read");
 }
 
+TEST_F(StoredSearchTest, RefusesShiftedThumbnails) {
+  make("blocks+thumbnail");
+  settings_.max_shift_px = 4;
+  place::Alone alone;
+  place::StoredSearch search(path_, alone);
+  EXPECT_THROW_WITH(search.prepare(resolved(), route_), vo::Error, "max-shift-px of thumbnails");
+  search.finish();
+}
+
 }  // namespace

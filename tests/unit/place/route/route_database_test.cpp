@@ -409,4 +409,22 @@ TEST(RouteDatabase, LooksLikeARouteByItsFirstBytes) {
   EXPECT_FALSE(place::looks_like_route(folder.path() / "none"));
 }
 
+TEST(RouteDatabase, ALinkStaysALink) {
+  const TemporaryFolder folder;
+  place::write_route(folder / "r.db", small_route(3));
+  fs::create_symlink(folder / "r.db", folder / "link.db");
+  place::write_route(folder / "link.db", small_route(5));
+  EXPECT_TRUE(fs::is_symlink(folder / "link.db"));
+  EXPECT_EQ(place::read_route(folder / "r.db").traverses[0].keyframes.size(), 5U);
+}
+
+TEST(RouteDatabase, WhatAKilledProgramHadBegunIsNotDoneToItsSuccessor) {
+  const TemporaryFolder folder;
+  place::write_route(folder / "r.db", small_route(3));
+  folder.write("r.db-journal", "left behind");
+  place::write_route(folder / "r.db", small_route(5));
+  EXPECT_FALSE(fs::exists(folder / "r.db-journal"));
+  EXPECT_EQ(place::read_route(folder / "r.db").traverses[0].keyframes.size(), 5U);
+}
+
 }  // namespace

@@ -1,5 +1,6 @@
 #include "place/route/stored_descriptors.hpp"
 
+#include "route/sqlite.hpp"
 #include "support/example_route.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -134,6 +135,19 @@ TEST_F(StoredDescriptorsTest, TellOneRouteFromAnother) {
   EXPECT_NE(StoredDescriptors(path_, 0).digest(), digest);
   place::write_route(path_, route_);
   EXPECT_EQ(place::read_route(path_).digest, digest);
+}
+
+TEST_F(StoredDescriptorsTest, PicturesMayBeAskedForAgainAndAgain) {
+  place::Route light = place::read_route(path_, {.previews = false, .descriptors = false});
+  // More than one reading of the file may give: 16 bytes each time, and the picture.
+  const std::size_t often = (2 * std::filesystem::file_size(path_) + (1U << 16U)) / 16 + 2;
+  EXPECT_NO_THROW(place::read_previews(path_, light, 0, std::vector<std::size_t>(often, 8)));
+}
+
+TEST_F(StoredDescriptorsTest, OfNoSizeAreRefused) {
+  place::sqlite::Database(path_, place::sqlite::Database::Mode::kCreate, "r.db")
+      .run("UPDATE descriptor SET width = 0");
+  EXPECT_THROW_WITH(StoredDescriptors(path_, 0), vo::Error, "is no size");
 }
 
 }  // namespace

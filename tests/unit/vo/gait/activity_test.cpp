@@ -122,6 +122,18 @@ TEST(DetectActivity, IsRidingWhereTheCameraGetsOnWithoutSteps) {
   EXPECT_EQ(vo::detect_activity(Frames(20, 0.005).signal, {})[7].activity, Activity::kStanding);
 }
 
+TEST(DetectActivity, APauseOfTheRecordingIsNoRide) {
+  // Looking around by a third of a turn, from the first picture after a pause on.
+  Frames frames(120, 0);
+  for (std::size_t i = 0; i < frames.signal.time_s.size(); ++i) {
+    double& time_s = frames.signal.time_s[i];
+    if (time_s >= 60 && time_s < 66) frames.signal.flow_per_s[i] = {0.3, 0};
+    if (time_s >= 60) time_s += 120;
+  }
+  const auto found = activities(vo::detect_activity(frames.signal, {}));
+  for (std::size_t i = 180; i < 186; ++i) EXPECT_NE(found[i], Activity::kRiding) << i;
+}
+
 TEST(DetectActivity, IsNotStandingWhileThePictureFlowsPast) {
   // Half a minute at a stop, a minute past houses, half a minute at the next stop.
   Frames frames(120, 0);

@@ -22,6 +22,20 @@ TEST(GreyRange, IsWhatThePicturesUse) {
   EXPECT_EQ(range->white, 999);
 }
 
+TEST(GreyRange, OfALargePictureIsFoundOnAMillionPixels) {
+  cv::Mat ramp(3000, 3000, CV_16UC1);
+  for (int x = 0; x < 3000; ++x) ramp.col(x).setTo(cv::Scalar(1000 + 2 * x));
+  const cv::Mat thin = vo::thinned(ramp);
+  EXPECT_LE(thin.total(), 1'010'000U);
+  EXPECT_EQ(thin.type(), CV_16UC1);
+  const auto range = vo::range_of(std::vector<cv::Mat>{thin});
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(range->black, 1000, 30);  // a thousandth of the pixels and a column that is left out
+  EXPECT_NEAR(range->white, 6998, 30);
+  const cv::Mat small(20, 30, CV_32FC3, cv::Scalar::all(1));
+  EXPECT_EQ(vo::thinned(small).size(), small.size());
+}
+
 TEST(GreyRange, StretchesLinearly) {
   const cv::Mat picture = (cv::Mat_<std::uint16_t>(1, 5) << 0, 1000, 1600, 2000, 65535);
   const cv::Mat image = vo::stretched(picture, {.black = 1000, .white = 2000});

@@ -95,4 +95,14 @@ TEST_F(ChainedSource, RefusesWhatDoesNotFit) {
   EXPECT_EQ(times({first}).size(), 30U);
 }
 
+TEST_F(ChainedSource, AChapterOfOneFrameTakesItsTime) {
+  test_support::VideoOptions one{.rate_hz = 20};
+  one.tags["creation_time"] = "2001-09-09T01:46:40Z";
+  write_video(folder_ / "W1.mp4", 1, one);
+  const auto all = times({(folder_ / "W1.mp4").string(), chapter("W2.mp4", "2001-09-09T01:46:40Z")});
+  ASSERT_EQ(all.size(), 31U);
+  EXPECT_GT(all[1], all[0]);
+  EXPECT_NEAR(all[2] - all[1], 0.05, 2e-3);
+}
+
 }  // namespace

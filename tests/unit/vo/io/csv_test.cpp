@@ -91,6 +91,12 @@ TEST(Csv, AnApostropheIsNoQuote) {
   }
 }
 
+TEST(Csv, ALineBreakInATextBecomesASpace) {
+  const TemporaryFolder folder;
+  const auto back = vo::CsvTable::read(folder.write("t.csv", "a,name\n1," + vo::csv_cell("a\nb") + "\n"));
+  EXPECT_THAT(back.text("name"), ElementsAre("a b"));
+}
+
 TEST(Csv, AThousandIsNotTakenForADecimalComma) {
   const TemporaryFolder folder;
   EXPECT_THROW_WITH(vo::CsvTable::read(folder.write("t.csv", "a,b\n\"1,234\",1\n")).numbers("a"), vo::Error,

@@ -112,6 +112,20 @@ TEST(FrameSource, SaysThatAVideoBreaksOff) {
                                                " of 40 frames could be read"));
 }
 
+TEST(FrameSource, ADamagedLastFrameIsNoBreak) {
+  const TemporaryFolder folder;
+  write_video(folder / "whole.avi", 40, 20);
+  std::string bytes = test_support::read_file(folder / "whole.avi");
+  const std::size_t last = bytes.rfind("\xFF\xD8\xFF"), end = bytes.rfind("idx1");
+  ASSERT_LT(last, end);
+  std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(last),
+            bytes.begin() + static_cast<std::ptrdiff_t>(end), '\0');
+  const auto source = vo::open_frame_source(folder.write("damaged.avi", bytes).string());
+  EXPECT_EQ(read_all(*source).size(), 39U);
+  for (const std::string& warning : source->warnings())
+    EXPECT_THAT(warning, testing::Not(HasSubstr("breaks off")));
+}
+
 TEST(FrameSource, RefusesWhatIsNoWalk) {
   const TemporaryFolder folder;
   EXPECT_THROW_WITH(vo::open_frame_source((folder / "none.mp4").string()), vo::Error,

@@ -2,7 +2,10 @@
 #include "support/video_writer.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <string>
+#include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -112,6 +115,31 @@ TEST(VideoSource, SaysWhenItWasRecorded) {
   // Android writes it when the recording ends: 26 frames are 1.04 s.
   EXPECT_NEAR(start({{"creation_time", "2001-09-09T01:46:40Z"}, {"com.android.version", "14"}}).value(),
               1e9 - 1.04, 0.05);
+  // In true time: these 26 took 0.13 s, or as long as the user says.
+  const std::map<std::string, std::string> slow{{"creation_time", "2001-09-09T01:46:40Z"},
+                                                {"com.android.version", "14"},
+                                                {"com.android.capture.fps", "200"}};
+  EXPECT_NEAR(start(slow).value(), 1e9 - 0.13, 0.01);
+  EXPECT_NEAR(read(folder / "walk.mp4", {.frame_rate_hz = 100}).start_utc_s.value(), 1e9 - 0.26, 0.02);
+}
+
+TEST(VideoSource, OfAPipeIsReadOnce) {
+  const TemporaryFolder folder;
+  const auto pipe = folder / "walk.y4m";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  // Dark bars above and below, which in a file would be looked for all over it.
+  cv::Mat picture = corner_picture();
+  picture.rowRange(0, 8).setTo(cv::Scalar::all(0));
+  picture.rowRange(40, 48).setTo(cv::Scalar::all(0));
+  const std::jthread writer([&] {
+    std::ofstream to(pipe, std::ios::binary);
+    to << "YUV4MPEG2 W64 H48 F25:1 Ip A1:1 Cmono\n";
+    for (int i = 0; i < 20; ++i) {
+      to << "FRAME\n";
+      to.write(reinterpret_cast<const char*>(picture.data), static_cast<std::streamsize>(picture.total()));
+    }
+  });
+  EXPECT_EQ(read(pipe).frames.size(), 20U);
 }
 
 TEST(VideoSource, IsUprightHoweverItWasHeld) {
