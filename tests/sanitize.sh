@@ -20,7 +20,7 @@ cmake --preset asan -DRETRACE_BUILD_TESTS=ON -DRETRACE_UNIT_TEST_OBJECTS="$objec
 cmake --build --preset asan --target unit_tests
 
 GTEST_TOTAL_SHARDS=$(nproc)
-export GTEST_TOTAL_SHARDS
+export GTEST_TOTAL_SHARDS OMP_WAIT_POLICY=passive  # the shards' threads leave each other the cores
 shards=()
 for ((shard = 0; shard < GTEST_TOTAL_SHARDS; ++shard)); do
   GTEST_SHARD_INDEX=$shard timeout "${RETRACE_SANITIZE_S:-180}" build/asan/bin/unit_tests --gtest_brief=1 \

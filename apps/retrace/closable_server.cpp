@@ -130,6 +130,13 @@ ClosableServer::ClosableServer() {
   });
 }
 
+int ClosableServer::bind(const std::string& address, int port) {
+  const int bound = port == 0 ? bind_to_any_port(address) : bind_to_port(address, port) ? port : -1;
+  // The library has five wait at most: of many that come at once, the others would try again a second later.
+  if (bound > 0) ::listen(svr_sock_, static_cast<int>(kMostThreads));
+  return bound;
+}
+
 void ClosableServer::hang_up() {
   const std::lock_guard lock(mutex_);
   over_ = true;

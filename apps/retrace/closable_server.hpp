@@ -3,6 +3,7 @@
 #include <httplib.h>
 #include <mutex>
 #include <set>
+#include <string>
 
 namespace retrace {
 
@@ -12,6 +13,9 @@ namespace retrace {
 class ClosableServer : public httplib::Server {
  public:
   ClosableServer();
+
+  /// Listens at an address; port 0: any that is free. Returns the port, or -1 if it cannot.
+  int bind(const std::string& address, int port);
 
   /// Ends whatever is read or written, now and from now on.
   void hang_up();

@@ -56,7 +56,7 @@ class EventServer::Implementation {
       answer(request, response);
       return httplib::Server::HandlerResponse::Handled;
     });
-    port_ = port == 0 ? server_.bind_to_any_port(address) : server_.bind_to_port(address, port) ? port : -1;
+    port_ = server_.bind(address, port);
     if (port_ <= 0) {
       throw vo::Error(
           fmt::format("--view {}", port), fmt::format("cannot listen on {}", address),

@@ -191,7 +191,9 @@ class ViewTest(unittest.TestCase):
 
     def test_slow_clients_wait_for_nobody_and_nobody_for_them(self):
         live = self.follow()
+        began = time.monotonic()
         slow = [self.client(live, narrow=True) for _ in range(SLOW)]
+        self.assertLess(time.monotonic() - began, 5)  # a connection that has to be tried again takes a second
         quick = Listener(self.client(live))
         self.assertEqual(self.ask(live, "/")[0].status, 200)  # there is room for more
         live.feed(rate_hz=60)

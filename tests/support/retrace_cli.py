@@ -57,11 +57,15 @@ def draw_walk(folder, wall, positions, width=96, gain=1.0):
     """A folder of PGM images: the wall seen through a window at each of the positions (pixels, may be fractional)."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True)
+    brighter = bytes(min(255, int(gain * grey)) for grey in range(256))
     for i, position in enumerate(positions):
         left, part = int(position), position - int(position)
         pixels = bytearray()
         for row in wall:
-            pixels += bytes(min(255, int(gain * ((1 - part) * row[left + x] + part * row[left + x + 1]))) for x in range(width))
+            if part == 0:
+                pixels += row[left:left + width].translate(brighter)
+            else:
+                pixels += bytes(min(255, int(gain * ((1 - part) * row[left + x] + part * row[left + x + 1]))) for x in range(width))
         (folder / f"{i}.pgm").write_bytes(b"P5 %d %d 255\n" % (width, len(wall)) + pixels)
     return folder
 
