@@ -41,6 +41,8 @@ LiveCosts::LiveCosts(const Route& route, const StageOptions& options)
   if (route.settings.descriptor && route.settings.descriptor->find("file") != std::string::npos)
     throw vo::Error("the route", "is described by a file, which has no row for a new picture",
                     "a route built with another descriptor");
+  for (std::size_t k = 0; k < descriptors_->size(); ++k)
+    describe_.push_back((*descriptors_)[k]->describer(route.learned.at(k)));
   for (const Traverse& traverse : route.traverses) {
     std::vector<Descriptors>& references = references_.emplace_back();
     for (std::size_t k = 0; k < descriptors_->size(); ++k)
@@ -87,7 +89,7 @@ std::vector<float> LiveCosts::against(const vo::Frame& frame, const vo::ImageSta
     const Descriptor& descriptor = *(*descriptors_)[k];
     records.records.clear();
     if (descriptor.traits().records_frames) records.records.push_back(descriptor.record(frame));
-    query.push_back(descriptor.comparable(descriptor.describe(records, route_.learned.at(k))));
+    query.push_back(descriptor.comparable(describe_[k](records)));
   }
   std::vector<float> all;
   for (std::size_t t = 0; t < references_.size(); ++t) {

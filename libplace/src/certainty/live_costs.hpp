@@ -34,6 +34,7 @@ class LiveCosts {
 
   const Route& route_;
   std::shared_ptr<const DescriptorSet> descriptors_;
+  std::vector<Describe> describe_;  // by descriptor
   std::optional<int> max_shift_px_;
   std::vector<std::vector<Descriptors>> references_;  // by traverse and descriptor, comparable
   std::vector<std::vector<Usual>> usual_;             // by traverse and keyframe

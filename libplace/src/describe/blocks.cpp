@@ -113,18 +113,41 @@ FloatRows even_out(const FloatRows& columns, PrincipalAxes& axes) {
   return along;
 }
 
+/// A model, arranged for describing.
+struct ReadyModel {
+  explicit ReadyModel(const BlocksModel& model)
+      : of_blocks(model.block_axes),
+        vocabularies(model.vocabularies),
+        of_columns(model.column_axes),
+        step(model.step) {}
+  Projection of_blocks;
+  std::vector<FloatRows> vocabularies;
+  Projection of_columns;
+  float step;
+};
+
 /// Descriptors before rounding, one row each.
-FloatRows described(std::span<const Bytes> records, const std::vector<FloatRows>& vocabularies,
-                    const Projection& of_blocks, const Projection& of_columns) {
+FloatRows described(std::span<const Bytes> records, const ReadyModel& model) {
   std::vector<FloatRows> columns;
   for (const Bytes& record : records)
-    columns.push_back(columns_of(of_blocks(blocks_of(record)), vocabularies));
+    columns.push_back(columns_of(model.of_blocks(blocks_of(record)), model.vocabularies));
   FloatRows rows = make_float_rows(static_cast<std::size_t>(kColumns) * kChannels, records.size());
-  const FloatRows along = of_columns(joined(columns));
+  const FloatRows along = model.of_columns(joined(columns));
   for (std::size_t i = 0; i < along.size(); ++i)  // a short walk has fewer axes; the rest are 0
     std::ranges::copy(along[i],
                       rows[i / kColumns].begin() + static_cast<std::ptrdiff_t>(i % kColumns * kChannels));
   return rows;
+}
+
+ColumnStack describe_records(std::span<const Bytes> records, const ReadyModel& model) {
+  ColumnStack stack = make_column_stack(kColumns, kChannels, records.size());
+  constexpr std::size_t kTogether = 8;  // keyframes processed for each reading of the axes
+  vo::parallel_for((records.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
+    const std::size_t first = part * kTogether, count = std::min(kTogether, records.size() - first);
+    const FloatRows rows = described(records.subspan(first, count), model);
+    for (std::size_t i = 0; i < count; ++i) quantise(rows[i], model.step, stack, first + i);
+  });
+  return stack;
 }
 
 class Blocks final : public Descriptor {
@@ -142,9 +165,11 @@ class Blocks final : public Descriptor {
   [[nodiscard]] Bytes learn(const KeyframeRecords& keyframes) const override {
     return pack_blocks(learn_blocks(keyframes.records));
   }
-  [[nodiscard]] Descriptors describe(const KeyframeRecords& keyframes,
-                                     std::span<const std::uint8_t> learned) const override {
-    return describe_blocks(keyframes.records, unpack_blocks(learned));
+  [[nodiscard]] Describe describer(std::span<const std::uint8_t> learned) const override {
+    return [model = std::make_shared<const ReadyModel>(unpack_blocks(learned))](
+               const KeyframeRecords& keyframes) -> Descriptors {
+      return describe_records(keyframes.records, *model);
+    };
   }
 };
 
@@ -185,16 +210,7 @@ BlocksModel learn_blocks(std::span<const Bytes> records) {
 }
 
 ColumnStack describe_blocks(std::span<const Bytes> records, const BlocksModel& model) {
-  ColumnStack stack = make_column_stack(kColumns, kChannels, records.size());
-  const Projection of_blocks(model.block_axes), of_columns(model.column_axes);
-  constexpr std::size_t kTogether = 8;  // keyframes processed for each reading of the axes
-  vo::parallel_for((records.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
-    const std::size_t first = part * kTogether, count = std::min(kTogether, records.size() - first);
-    const FloatRows rows =
-        described(records.subspan(first, count), model.vocabularies, of_blocks, of_columns);
-    for (std::size_t i = 0; i < count; ++i) quantise(rows[i], model.step, stack, first + i);
-  });
-  return stack;
+  return describe_records(records, ReadyModel(model));
 }
 
 Bytes pack_blocks(const BlocksModel& model) {

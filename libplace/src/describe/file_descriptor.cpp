@@ -25,8 +25,12 @@ class File final : public Descriptor {
 
   [[nodiscard]] DescriptorTraits traits() const override { return {.metric = options_.metric}; }
 
-  [[nodiscard]] Descriptors describe(const KeyframeRecords& keyframes,
-                                     std::span<const std::uint8_t>) const override {
+  [[nodiscard]] Describe describer(std::span<const std::uint8_t>) const override {
+    return [this](const KeyframeRecords& keyframes) -> Descriptors { return rows_of(keyframes); };
+  }
+
+ private:
+  [[nodiscard]] FloatRows rows_of(const KeyframeRecords& keyframes) const {
     const FloatRows rows = read_npy(options_.path);
     const std::string beside = options_.path + ".csv";
     const vo::CsvTable table = vo::CsvTable::read(beside);
@@ -60,7 +64,6 @@ class File final : public Descriptor {
     return chosen;
   }
 
- private:
   DescriptorFileOptions options_;
 };
 

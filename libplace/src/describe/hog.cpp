@@ -55,10 +55,11 @@ class Hog final : public Descriptor {
     FloatRows rows = rows_of(keyframes);
     return pack_spread(spread_of(rows));
   }
-  [[nodiscard]] Descriptors describe(const KeyframeRecords& keyframes,
-                                     std::span<const std::uint8_t> learned) const override {
-    FloatRows rows = rows_of(keyframes);
-    return standardised_columns(std::move(rows), learned, kHogColumns);
+  [[nodiscard]] Describe describer(std::span<const std::uint8_t> learned) const override {
+    return [this, learned = Bytes(learned.begin(), learned.end())](
+               const KeyframeRecords& keyframes) -> Descriptors {
+      return standardised_columns(rows_of(keyframes), learned, kHogColumns);
+    };
   }
 };
 

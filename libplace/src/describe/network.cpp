@@ -156,10 +156,12 @@ class Network final : public Descriptor {
     return pack_spread(spread_of(rows_of(keyframes)));
   }
 
-  [[nodiscard]] Descriptors describe(const KeyframeRecords& keyframes,
-                                     std::span<const std::uint8_t> learned) const override {
-    if (keyframes.records.empty()) return ColumnStack{};
-    return standardised_columns(rows_of(keyframes), learned, options_.pool_columns);
+  [[nodiscard]] Describe describer(std::span<const std::uint8_t> learned) const override {
+    return [this, learned = Bytes(learned.begin(), learned.end())](
+               const KeyframeRecords& keyframes) -> Descriptors {
+      if (keyframes.records.empty()) return ColumnStack{};
+      return standardised_columns(rows_of(keyframes), learned, options_.pool_columns);
+    };
   }
 
  private:

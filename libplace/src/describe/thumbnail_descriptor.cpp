@@ -7,9 +7,8 @@ class Thumbnail final : public Descriptor {
  public:
   explicit Thumbnail(const vo::PatchNormalisationOptions& patch) : patch_(patch) {}
   [[nodiscard]] DescriptorTraits traits() const override { return {.columns = 64}; }
-  [[nodiscard]] Descriptors describe(const KeyframeRecords& keyframes,
-                                     std::span<const std::uint8_t>) const override {
-    return keyframes.thumbnails;
+  [[nodiscard]] Describe describer(std::span<const std::uint8_t>) const override {
+    return [](const KeyframeRecords& keyframes) -> Descriptors { return keyframes.thumbnails; };
   }
   [[nodiscard]] Descriptors comparable(const Descriptors& described) const override {
     return vo::patch_normalise(std::get<vo::ImageStack>(described), patch_);

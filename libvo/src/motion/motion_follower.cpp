@@ -125,6 +125,7 @@ FollowedMotion MotionFollower::push(std::span<const std::uint8_t> normalised, do
       means.error.push_back(mean.error / mean.weight);
     }
     model_ = learn_motion_model(means);
+    curve_ = SeparationCurve(model_);
   }
 
   motion.moved_s = since_s;
@@ -139,9 +140,8 @@ FollowedMotion MotionFollower::push(std::span<const std::uint8_t> normalised, do
       if (!compared[k].made()) continue;
       const bool clamped = static_cast<double>(compared[k].error) >= model_.error.back();
       if (clamped && speed) continue;  // says "at least" only
-      const float error = compared[k].error;
       const double estimate =
-          separation_of(model_, {&error, 1}).front() / static_cast<double>(compared[k].seconds);
+          curve_(static_cast<double>(compared[k].error)) / static_cast<double>(compared[k].seconds);
       speed = std::min(speed.value_or(estimate), estimate);
     }
     if (speed) {

@@ -1,7 +1,6 @@
 #include "vo/motion/motion_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -24,39 +23,16 @@ Spline fit(const MotionModel& model) {
   return Eigen::SplineFitting<Spline>::Interpolate(separations, degree, errors);
 }
 
-/// Separations on an even grid of errors, from the spline or, where it does not increase, straight lines
-/// between the knots. Fine enough that interpolating between its points is exact to 1e-5 frames.
-class Curve {
- public:
-  explicit Curve(const MotionModel& model) : step_(model.error.back() / kSteps) {
-    const Spline spline = fit(model);
-    for (int i = 0; i <= kSteps; ++i) value_[i] = spline(static_cast<double>(i) / kSteps)(0);
-    if (!std::ranges::is_sorted(value_)) {
-      for (int i = 0; i <= kSteps; ++i) value_[i] = straight(model, i * step_);
-    }
-  }
+constexpr int kCurveSteps = 4096;  // interpolating between them is exact to 1e-5 frames
 
-  [[nodiscard]] double operator()(double error) const {
-    const double position = std::clamp(error / step_, 0.0, static_cast<double>(kSteps));
-    const int low = std::min(static_cast<int>(position), kSteps - 1);
-    return std::max(0.0, std::lerp(value_[low], value_[low + 1], position - low));
-  }
-
- private:
-  static constexpr int kSteps = 4096;
-
-  static double straight(const MotionModel& model, double error) {
-    const auto after = std::ranges::lower_bound(model.error, error);
-    if (after == model.error.begin()) return model.separation.front();
-    if (after == model.error.end()) return model.separation.back();
-    const auto i = static_cast<std::size_t>(after - model.error.begin());
-    const double t = (error - model.error[i - 1]) / (model.error[i] - model.error[i - 1]);
-    return std::lerp(model.separation[i - 1], model.separation[i], t);
-  }
-
-  double step_;
-  std::array<double, kSteps + 1> value_;
-};
+double straight(const MotionModel& model, double error) {
+  const auto after = std::ranges::lower_bound(model.error, error);
+  if (after == model.error.begin()) return model.separation.front();
+  if (after == model.error.end()) return model.separation.back();
+  const auto i = static_cast<std::size_t>(after - model.error.begin());
+  const double t = (error - model.error[i - 1]) / (model.error[i] - model.error[i - 1]);
+  return std::lerp(model.separation[i - 1], model.separation[i], t);
+}
 
 /// estimates[k][i]: speed from frame i on, over k + 1 spans; infinite where there is none.
 using SpeedEstimates = std::vector<std::vector<double>>;
@@ -80,7 +56,7 @@ SpeedEstimates empty_estimates(const AlignmentErrors& errors, std::span<const do
 
 void estimate_speeds(const AlignmentErrors& errors, const MotionModel& model, std::size_t begin,
                      std::size_t end, SpeedEstimates& estimates) {
-  const Curve curve(model);
+  const SeparationCurve curve(model);
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     for (std::size_t i = begin; i < std::min(end, errors.frames()); ++i) {
       const Comparison& compared = errors.by_span[k][i];
@@ -150,11 +126,25 @@ MotionModel learn_motion_model(const MeanErrors& means) {
   return model;
 }
 
+SeparationCurve::SeparationCurve(const MotionModel& model) {
+  if (!model.learned()) return;
+  step_ = model.error.back() / kCurveSteps;
+  const Spline spline = fit(model);
+  for (int i = 0; i <= kCurveSteps; ++i) value_.push_back(spline(static_cast<double>(i) / kCurveSteps)(0));
+  if (std::ranges::is_sorted(value_)) return;
+  for (int i = 0; i <= kCurveSteps; ++i) value_[static_cast<std::size_t>(i)] = straight(model, i * step_);
+}
+
+double SeparationCurve::operator()(double error) const {
+  if (value_.empty()) return 0;
+  const double position = std::clamp(error / step_, 0.0, static_cast<double>(kCurveSteps));
+  const auto low = static_cast<std::size_t>(std::min(static_cast<int>(position), kCurveSteps - 1));
+  return std::max(0.0, std::lerp(value_[low], value_[low + 1], position - static_cast<double>(low)));
+}
+
 std::vector<double> separation_of(const MotionModel& model, std::span<const float> errors) {
-  std::vector<double> separations(errors.size(), 0.0);
-  if (!model.learned()) return separations;
-  const Curve curve(model);
-  std::ranges::transform(errors, separations.begin(), curve);
+  std::vector<double> separations(errors.size());
+  std::ranges::transform(errors, separations.begin(), SeparationCurve(model));
   return separations;
 }
 

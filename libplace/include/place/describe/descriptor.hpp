@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -53,12 +54,15 @@ struct DescriptorTraits {
   int colour_width_px = 0;          ///< width of the colour pictures that `record` needs; 0: grey is enough
 };
 
+/// From keyframes to their descriptors.
+using Describe = std::function<Descriptors(const KeyframeRecords&)>;
+
 /// What keyframes are compared by.
 ///
 /// Frames are seen once, before it is known which become keyframes, so there are three parts: `record` keeps
 /// something compact of every frame; `learn` extracts from the keyframes of a route's first traverse what
-/// needs a whole walk (a vocabulary, axes), which is stored in the route; `describe` makes descriptors of any
-/// walk's keyframes. To add a descriptor: a class like the others here, an entry in the table of
+/// needs a whole walk (a vocabulary, axes), which is stored in the route; a `describer` makes descriptors of
+/// any walk's keyframes. To add a descriptor: a class like the others here, an entry in the table of
 /// descriptor.cpp, and a test.
 class Descriptor {
  public:
@@ -73,10 +77,15 @@ class Descriptor {
   /// learn from.
   [[nodiscard]] virtual Bytes learn(const KeyframeRecords& keyframes) const;
 
-  /// The descriptors of a walk's keyframes. `learned`: from `learn`; throws `vo::Error` for other bytes. The
-  /// same bytes for any number of threads.
-  [[nodiscard]] virtual Descriptors describe(const KeyframeRecords& keyframes,
-                                             std::span<const std::uint8_t> learned) const = 0;
+  /// Makes the descriptors of any walk's keyframes, the same bytes for any number of threads; it must not
+  /// outlive the descriptor. `learned`: from `learn`, read once; throws `vo::Error` for other bytes.
+  [[nodiscard]] virtual Describe describer(std::span<const std::uint8_t> learned) const = 0;
+
+  /// The descriptors of one walk's keyframes.
+  [[nodiscard]] Descriptors describe(const KeyframeRecords& keyframes,
+                                     std::span<const std::uint8_t> learned) const {
+    return describer(learned)(keyframes);
+  }
 
   /// The form in which a route's or a walk's descriptors are compared: unchanged, unless the descriptor
   /// stores them differently.

@@ -71,6 +71,7 @@ class MotionFollower {
   std::size_t intervals_ = 0;
   std::vector<Mean> means_;
   MotionModel model_;
+  SeparationCurve curve_;  ///< of the model
   double learned_at_s_ = 0, moving_s_ = 0;
   double estimated_s_ = 1, walked_s_ = 1;  // by the model, and by the clock; from a second of both on
 };

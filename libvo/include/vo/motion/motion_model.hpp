@@ -49,9 +49,22 @@ MotionModel learn_motion_model(const AlignmentErrors& errors, std::span<const do
                                const std::vector<bool>& known);
 inline constexpr std::size_t kMotionModelBins = 12;
 
-/// The separation for each error: the spline, clamped to the knots' range at both ends (SSS Eq. 3). All 0 for
-/// a model with no knots beyond the first. Non-decreasing in the error: where the quadratic would overshoot,
-/// straight pieces replace it.
+/// The separation for an error: the spline, clamped to the knots' range at both ends (SSS Eq. 3). 0 for a
+/// model with no knots beyond the first. Non-decreasing in the error: where the quadratic would overshoot,
+/// straight pieces replace it. Made once, from a few thousand points of the spline, for any number of errors.
+class SeparationCurve {
+ public:
+  SeparationCurve() = default;  ///< of a model that learned nothing
+  explicit SeparationCurve(const MotionModel& model);
+
+  [[nodiscard]] double operator()(double error) const;
+
+ private:
+  double step_ = 0;
+  std::vector<double> value_;  ///< at multiples of the step
+};
+
+/// The same of each error.
 std::vector<double> separation_of(const MotionModel& model, std::span<const float> errors);
 
 /// Displacement of each frame since the one before it, in the model's unit; 0 for the first (SSS 3.2, 3.5).
