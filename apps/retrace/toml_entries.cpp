@@ -40,7 +40,8 @@ std::vector<TomlEntry> read_toml(const std::string& file, const std::string& exp
     std::stringstream text;
     for (std::string line; std::getline(stream, line);) text << without_comment(line) << '\n';
     CLI::ConfigTOML toml;
-    toml.comment('\0');  // they are gone, and what is left of # is not one
+    toml.comment('\0');          // they are gone, and what is left of # is not one
+    toml.parentSeparator('\0');  // a name of n dots would become n sections of up to n names
     for (const CLI::ConfigItem& item : toml.from_config(text)) {
       if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the bounds of a section
       entries.push_back({fmt::format("{}", fmt::join(item.parents, ".")), item.name, item.inputs});
