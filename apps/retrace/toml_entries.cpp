@@ -38,7 +38,11 @@ std::vector<TomlEntry> read_toml(const std::string& file, const std::string& exp
   std::vector<TomlEntry> entries;
   try {
     std::stringstream text;
-    for (std::string line; std::getline(stream, line);) text << without_comment(line) << '\n';
+    for (std::string line; std::getline(stream, line);) {
+      if (line.find('\0') != std::string::npos)
+        throw vo::Error(file, "is no text: it holds zero bytes", expected);
+      text << without_comment(line) << '\n';
+    }
     CLI::ConfigTOML toml;
     toml.comment('\0');          // they are gone, and what is left of # is not one
     toml.parentSeparator('\0');  // a name of n dots would become n sections of up to n names

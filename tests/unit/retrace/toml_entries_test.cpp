@@ -36,7 +36,8 @@ TEST(TomlEntries, DotsAreOfTheNameHoweverMany) {
   EXPECT_EQ(entries[0].key, "key.part");
 }
 
-TEST(TomlEntries, OfNoFileAreRefused) {
+TEST(TomlEntries, OfNoTextAreRefused) {
+  EXPECT_THROW_WITH(entries_of(std::string("[a") + '\0' + "]\n"), vo::Error, "a.toml: is no text");
   EXPECT_THROW_WITH(retrace::read_toml("none.toml", "a file"), vo::Error,
                     "none.toml: is no file; expected a file");
 }
