@@ -36,6 +36,8 @@ struct FollowOptions {
 };
 
 void follow(const FollowOptions& options) {
+  if (options.common.force && options.output.empty())
+    throw UsageError("--force has no effect without --output");
   vo::set_thread_count(options.settings.threads.value_or(0));
   check_not_swapped(options.walk, options.route);
   const bool shown = !options.output.empty() || options.view.port;

@@ -23,8 +23,8 @@ double rounded_to(double value, double per_unit) {
 constexpr double kMillimetres = 1000, kHundredths = 100, kTenThousandths = 1e4;
 
 double heading_deg(double heading_rad) {
-  const double degrees = heading_rad * 180 / std::numbers::pi;
-  return rounded_to(degrees < 0 ? degrees + 360 : degrees, kHundredths);
+  const double degrees = rounded_to(heading_rad * 180 / std::numbers::pi, kHundredths);
+  return degrees < 0 ? degrees + 360 : degrees + 0.0;  // rounded first, so never 360; and no -0
 }
 
 void put_place(ordered_json& json, const place::FollowedPlace& place) {

@@ -34,13 +34,16 @@ std::optional<vo::Frame> FollowedSource::next() {
     trouble_ = error.what();
   }
   if (newest_) skipped_ = newest_->dropped();
+  if (newest_ && !frame) broke_off_ = newest_->ended();
   return frame;
 }
 
 void FollowedSource::check_end() const {
   if (!trouble_.empty()) throw vo::Error(walk_, trouble_, "a source that goes on; what was seen is kept");
   if (newest_ && !EndableReading::ended())
-    throw vo::Error(walk_, fmt::format("sent no picture for {:g} s", patience_s_),
+    throw vo::Error(walk_,
+                    broke_off_ ? "sent no picture more: it ended"
+                               : fmt::format("sent no picture for {:g} s", patience_s_),
                     "a camera that goes on; what was seen is kept");
 }
 

@@ -41,7 +41,8 @@ class FollowedSource {
   std::unique_ptr<vo::FrameSource> source_;  // unless it is live
   std::optional<NewestFrame> newest_;        // if it is
   std::int64_t skipped_ = 0;
-  std::string trouble_;  // why reading failed
+  std::string trouble_;     // why reading failed
+  bool broke_off_ = false;  // a live source ended, without a wait
   EndableReading endable_;
 };
 

@@ -45,4 +45,9 @@ std::int64_t NewestFrame::dropped() const {
   return dropped_;
 }
 
+bool NewestFrame::ended() const {
+  const std::lock_guard lock(mutex_);
+  return ended_;
+}
+
 }  // namespace retrace

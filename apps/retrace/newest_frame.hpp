@@ -27,6 +27,8 @@ class NewestFrame {
   std::optional<vo::Frame> next(double patience_s);
 
   [[nodiscard]] std::int64_t dropped() const;
+  /// Whether the source has ended.
+  [[nodiscard]] bool ended() const;
 
  private:
   std::unique_ptr<vo::FrameSource> source_;

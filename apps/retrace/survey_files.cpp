@@ -1,6 +1,7 @@
 #include "survey_files.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -56,10 +57,8 @@ void declare_survey(Arguments& arguments, SurveyFiles& files) {
 
 place::Settings settings_beside(const SurveyFiles& files, place::Settings settings,
                                 const std::optional<std::string>& motion_of_route) {
-  if ((settings.motion ? settings.motion : motion_of_route) == "file") return settings;
-  if (!files.trajectory.empty()) settings.axes.reset();
-  if (!files.trajectory.empty() || !files.track.empty()) settings.motion_file_gap_s.reset();
-  return settings;
+  return place::settings_beside_survey(std::move(settings), !files.trajectory.empty(), !files.track.empty(),
+                                       motion_of_route);
 }
 
 std::optional<place::Survey> read_survey(const SurveyFiles& files, const place::Settings& settings,

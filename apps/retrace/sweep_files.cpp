@@ -102,9 +102,11 @@ place::SweepResults resume_sweep(const SweepOptions& options, const std::vector<
     if (!options.cell.empty() || options.merge)
       throw vo::Error("--force", "would remove what other parts of the sweep wrote", "another folder");
     remove_parts(options);
+    fs::remove(folder / "sweep.csv");
   }
-  if (options.cell.empty() && !options.merge) write_sweep_csv(options, axes, done);
+  // The mark before the results: without it a sweep that is killed in between could not go on.
   if (options.common.force || !is_marked) vo::write_file(mark, description);
+  if (options.cell.empty() && !options.merge) write_sweep_csv(options, axes, done);
   return done;
 }
 

@@ -52,9 +52,11 @@ void put(WalkPairEntry& pair, const TomlEntry& entry, const fs::path& folder) {
 }
 
 void check_pair(const WalkPairEntry& pair) {
-  // Hidden names and those with a slash would lead out of the results' folder.
-  if (pair.name.find('/') != std::string::npos || pair.name.starts_with('.'))
-    throw vo::Error("its name", "cannot be a folder's", "a name without / and no . in front");
+  // Hidden names and those with a slash would lead out of the results' folder; others are no cell of a table.
+  if (pair.name.find_first_of("/,\"") != std::string::npos || pair.name.starts_with('.'))
+    throw vo::Error("its name", "cannot be a folder's", "a name without / , or \" and no . in front");
+  for (const char* const ours : {"benchmark.csv", "benchmark.json", "report.html"})
+    if (pair.name == ours) throw vo::Error("its name", "is that of a file of the benchmark", "another");
   if (pair.query.empty()) throw vo::Error("query", "is missing", "the walk to be found");
   if (pair.reference.empty()) throw vo::Error("reference", "is missing", "the walk it is found on");
   if (const std::string lack = what_truth_lacks(pair.truth); !lack.empty())

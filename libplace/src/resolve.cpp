@@ -104,6 +104,14 @@ void check_together(const Settings& settings) {
   if (settings.v_min && *settings.v_min > *settings.v_max)
     throw vo::Error("v-min", fmt::format("is {} and v-max {}", *settings.v_min, *settings.v_max),
                     "v-min <= v-max");
+  const bool original = settings.compat && !is(settings.compat, "none");
+  if (settings.patch_px && (original || !is(settings.patch_shape, "window"))) {
+    for (const auto& side : {settings.thumbnail_width, settings.thumbnail_height})
+      if (side && *side % *settings.patch_px != 0)
+        throw vo::Error(
+            "patch-px", fmt::format("is {} and a side of the thumbnail {}", *settings.patch_px, *side),
+            original ? "a divisor of both sides" : "a divisor of both sides, or patch-shape window");
+  }
   if (settings.max_shift_px && has_part(settings.descriptor, "thumbnail") &&
       2 * *settings.max_shift_px >= kShiftWidth_px) {
     throw vo::Error(

@@ -265,4 +265,12 @@ StageOptions stage_options(const Settings& resolved, bool follow_steps) {
   return options;
 }
 
+Settings settings_beside_survey(Settings given, bool by_trajectory, bool by_track,
+                                const std::optional<std::string>& motion_of_route) {
+  if ((given.motion ? given.motion : motion_of_route) == "file") return given;
+  if (by_trajectory) given.axes.reset();
+  if (by_trajectory || by_track) given.motion_file_gap_s.reset();
+  return given;
+}
+
 }  // namespace place

@@ -37,6 +37,7 @@ class FollowTest(CliTest):
                                  self.walks.reference_truth, "--tolerance-m", 0.48, "--json"))
         self.assertGreater(found["accepted"]["precision"], 0.9)
         self.assertEqual((out / "report.html").read_bytes(), page)
+        self.refused("follow", self.walks.query, "--route", self.walks.route, "--force", says="--force", code=2, leaves=())
         evaluation = (out / "evaluation.html").read_text()
         self.assertIn("Max-F1", evaluation)
         for of_sequences in ("<dt>Sequence", "probability 0 or more", "<dt>Relative scale", "were found on part of a line"):

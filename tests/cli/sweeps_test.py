@@ -233,7 +233,9 @@ tolerance-m = 0.1
                              (lambda t: t.replace("reference = \"query\"\n", ""), "[back]: reference: is missing"),
                              (lambda t: t.replace("0.1", "near"), "a number of at least 0"),
                              (lambda t: t.replace("tolerance-m = 0.1\n\n", "tolerance-m = 0.1\ntolerance-frames = 3\n\n"), "one of tolerance-m"),
-                             (lambda t: t.replace("[back]", "[a/b]"), "a folder's"), (lambda t: "", "has no pair"),
+                             (lambda t: t.replace("[back]", "[a/b]"), "a folder's"),
+                             (lambda t: t.replace("[back]", "[back, again]"), "a folder's"),
+                             (lambda t: t.replace("[back]", "[report.html]"), "a file of the benchmark"), (lambda t: "", "has no pair"),
                              (lambda t: t.replace("reference.csv", "nothing.csv"), "nothing.csv")):
             path = self.folder / "benchmark-of" / "bad.toml"
             path.write_text(change(good))

@@ -46,6 +46,8 @@ __all__ = [name for name in dir() if not name.startswith("_")] + ["build", "__ve
 
 def build(source, name="reference", *, truth="", trajectory="", track="", progress=None, **settings):
     """A route of one walk: `Route`, `read_walk` and `Route.add` in one call."""
-    route = Route(**settings)
-    route.add(name, read_walk(source, progress=progress, **settings), truth=truth, trajectory=trajectory, track=track)
+    of_survey = () if settings.get("motion") == "file" else ("axes",) * bool(trajectory) + ("motion_file_gap_s",) * bool(trajectory or track)
+    of_walk = {key: value for key, value in settings.items() if key not in of_survey}
+    route = Route(**of_walk)
+    route.add(name, read_walk(source, progress=progress, **of_walk), truth=truth, trajectory=trajectory, track=track, **settings)
     return route

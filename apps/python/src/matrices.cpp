@@ -2,11 +2,14 @@
 #include "bindings.hpp"
 #include "settings_arguments.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <place/certainty/match_probability.hpp>
@@ -18,6 +21,7 @@
 #include <place/match/search_options.hpp>
 #include <place/resolve.hpp>
 #include <place/stage_options.hpp>
+#include <vo/base/error.hpp>
 #include <vo/image/patch_normalisation.hpp>
 
 namespace retrace_python {
@@ -94,6 +98,12 @@ Found search(const py::object& costs, const std::string& method, int sequence_le
              std::optional<std::vector<double>> steps, const std::vector<std::size_t>& query_gaps,
              const std::vector<std::size_t>& reference_gaps, const py::kwargs& arguments) {
   place::Settings settings = settings_of(arguments);
+  static constexpr std::array<std::string_view, 6> kOfMatrix{
+      "search_range_rad", "v_min", "v_max", "min_fraction", "uniqueness_window", "score"};
+  for (const auto& [key, value] : arguments)
+    if (!value.is_none() && std::ranges::find(kOfMatrix, key.cast<std::string>()) == kOfMatrix.end())
+      throw vo::Error(key.cast<std::string>(), "has no effect on the search of a matrix",
+                      "search_range_rad, v_min, v_max, min_fraction, uniqueness_window or score");
   settings.search = method;
   settings.sequence_length = sequence_length;
   const place::StageOptions stages = place::stage_options(place::resolve(settings, {}));

@@ -3,6 +3,7 @@
 #include "settings_arguments.hpp"
 
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <pybind11/stl.h>
@@ -30,6 +31,12 @@ std::vector<std::string> list_of(const Sources& sources) {
   return std::get<std::vector<std::string>>(sources);
 }
 
+/// A route that threads may share: whoever reads it keeps what it was when he began, and whoever adds to it
+/// puts another in its place.
+struct PythonRoute {
+  std::shared_ptr<const place::Route> now;
+};
+
 /// A trajectory as arrays.
 py::dict as_dict(const vo::Trajectory& trajectory) {
   py::dict result;
@@ -41,8 +48,9 @@ py::dict as_dict(const vo::Trajectory& trajectory) {
   return result;
 }
 
-vo::Walk read_walk(const Sources& sources, const place::Route* route, const py::object& progress,
+vo::Walk read_walk(const Sources& sources, const PythonRoute* shared, const py::object& progress,
                    const py::kwargs& arguments) {
+  const std::shared_ptr<const place::Route> route = shared == nullptr ? nullptr : shared->now;
   const place::Settings settings = settings_of(arguments);
   const std::vector<std::string> files = list_of(sources);
   const vo::ProgressCallback callback = progress_of(progress);
@@ -60,20 +68,36 @@ py::array_t<std::uint8_t> thumbnails_of(const vo::Walk& walk) {
   return array;
 }
 
-void add(place::Route& route, const std::string& name, const vo::Walk& walk, const std::string& truth,
-         const std::string& trajectory, const std::string& track, bool replace, const py::kwargs& arguments) {
-  const place::Settings settings = settings_of(arguments);
+std::vector<std::string> add(PythonRoute& shared, const std::string& name, const vo::Walk& walk,
+                             const std::string& truth, const std::string& trajectory,
+                             const std::string& track, bool replace, const py::kwargs& arguments) {
+  place::Settings settings = settings_of(arguments);
   if ((truth.empty() ? 0 : 1) + (trajectory.empty() ? 0 : 1) + (track.empty() ? 0 : 1) > 1)
     throw py::value_error("one of truth, trajectory and track expected");
-  const py::gil_scoped_release unlocked;
-  std::optional<place::Survey> survey;
-  if (!truth.empty()) survey = place::survey_from_truth(truth, walk);
-  if (!trajectory.empty()) survey = place::survey_from_trajectory(trajectory, walk);
-  if (!track.empty()) survey = place::survey_from_track(track, walk, route);
-  place::add(route, name, walk, survey, settings, replace);
+  const std::shared_ptr<const place::Route> before = shared.now;
+  std::shared_ptr<place::Route> next;
+  std::vector<std::string> warnings;
+  {
+    const py::gil_scoped_release unlocked;
+    next = std::make_shared<place::Route>(*before);
+    const place::SurveyOptions form = place::survey_options(settings);
+    std::optional<place::Survey> survey;
+    if (!truth.empty()) survey = place::survey_from_truth(truth, walk);
+    if (!trajectory.empty()) survey = place::survey_from_trajectory(trajectory, walk, form);
+    if (!track.empty()) survey = place::survey_from_track(track, walk, *next, form);
+    if (survey) warnings = survey->warnings;
+    settings = place::settings_beside_survey(std::move(settings), !trajectory.empty(), !track.empty(),
+                                             next->settings.motion);
+    const place::AddedTraverse added = place::add(*next, name, walk, survey, settings, replace);
+    warnings.insert(warnings.end(), added.warnings.begin(), added.warnings.end());
+  }
+  if (shared.now != before) throw py::value_error("Route.add: another thread added to it meanwhile");
+  shared.now = next;
+  return warnings;
 }
 
-py::list traverses_of(const place::Route& route) {
+py::list traverses_of(const PythonRoute& shared) {
+  const place::Route& route = *shared.now;
   py::list all;
   for (const place::Traverse& traverse : route.traverses) {
     const auto& keyframes = traverse.keyframes;
@@ -88,10 +112,11 @@ py::list traverses_of(const place::Route& route) {
   return all;
 }
 
-place::Run localise(const place::Route& route, const vo::Walk& walk, const py::kwargs& arguments) {
+place::Run localise(const PythonRoute& shared, const vo::Walk& walk, const py::kwargs& arguments) {
   const place::Settings settings = settings_of(arguments);
+  const std::shared_ptr<const place::Route> route = shared.now;
   const py::gil_scoped_release unlocked;
-  return place::localise(route, walk, settings);
+  return place::localise(*route, walk, settings);
 }
 
 py::dict evaluate(const place::Run& run, const std::string& query_truth, const std::string& reference_truth,
@@ -160,10 +185,11 @@ py::dict steps_of(const Odometry& odometry) {
   return result;
 }
 
-/// A follower that counts the frames it is given.
+/// A follower that counts the frames it is given, by one thread after another.
 struct PythonFollower {
-  std::unique_ptr<const place::Route> route;  ///< its own: the caller's may get other traverses
+  std::shared_ptr<const place::Route> route;  ///< as it was when it began
   place::Follower follower;
+  std::unique_ptr<std::mutex> mutex = std::make_unique<std::mutex>();
   std::int64_t frames = 0;
 };
 
@@ -178,7 +204,8 @@ py::dict as_dict(const place::FollowedPlace& at) {
   if (!at.pose) return result;
   result["x_m"] = at.pose->x_m;
   result["y_m"] = at.pose->y_m;
-  result["heading_deg"] = at.pose->heading_rad * 180 / std::numbers::pi;
+  const double heading_deg = at.pose->heading_rad * 180 / std::numbers::pi;
+  result["heading_deg"] = heading_deg < 0 ? heading_deg + 360 : heading_deg;
   return result;
 }
 
@@ -193,9 +220,10 @@ py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
     const cv::Mat view(static_cast<int>(image.shape(0)), static_cast<int>(image.shape(1)), kind,
                        const_cast<std::uint8_t*>(image.data()));
     const py::gil_scoped_release unlocked;
+    const std::lock_guard one_at_a_time(*self.mutex);
     position = self.follower.push({.index = self.frames, .time_s = time_s, .image = view, .colour = {}});
+    ++self.frames;
   }
-  ++self.frames;
   py::dict result = position.place ? as_dict(*position.place) : py::dict();
   result["frame"] = position.frame;
   result["time_s"] = position.time_s;
@@ -209,8 +237,14 @@ py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
 }
 
 py::list finish(const PythonFollower& self) {
+  std::vector<place::EarlierPlace> last;
+  {
+    const py::gil_scoped_release unlocked;
+    const std::lock_guard one_at_a_time(*self.mutex);
+    last = self.follower.finish();
+  }
   py::list all;
-  for (const place::EarlierPlace& earlier : self.follower.finish()) {
+  for (const place::EarlierPlace& earlier : last) {
     py::dict one = earlier.place ? as_dict(*earlier.place) : py::dict();
     one["frame"] = earlier.frame;
     all.append(one);
@@ -230,25 +264,33 @@ void bind_walks(py::module_& module) {
       .def_property_readonly("thumbnails", &thumbnails_of, "uint8 (frames, height, width)")
       .def_readonly("warnings", &vo::Walk::warnings);
 
-  py::class_<place::Route, std::shared_ptr<place::Route>>(module, "Route",
-                                                          "A reference route: any number of traverses of it.")
+  py::class_<PythonRoute>(module, "Route", "A reference route: any number of traverses of it.")
       .def(py::init([](const py::kwargs& arguments) {
-             return std::make_shared<place::Route>(place::new_route(settings_of(arguments)));
+             return PythonRoute{
+                 std::make_shared<const place::Route>(place::new_route(settings_of(arguments)))};
            }),
            "A route without traverses. Keywords: settings.")
       .def_static(
           "open",
-          [](const std::string& path) { return std::make_shared<place::Route>(place::read_route(path)); },
+          [](const std::string& path) {
+            return PythonRoute{std::make_shared<const place::Route>(place::read_route(path))};
+          },
           py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a route database.")
       .def(
-          "save", [](const place::Route& route, const std::string& path) { place::write_route(path, route); },
-          py::arg("path"), py::call_guard<py::gil_scoped_release>(),
-          "Writes the route database, whole or not at all.")
-      .def("add", &add, py::arg("name"), py::arg("walk"), py::kw_only(), py::arg("truth") = "",
-           py::arg("trajectory") = "", py::arg("track") = "", py::arg("replace") = false,
-           "Samples a walk and puts it among the traverses, surveyed by one of the files: truth.csv, a "
-           "trajectory (TUM), a "
-           "GPS track (GPX).")
+          "save",
+          [](const PythonRoute& shared, const std::string& path) {
+            const std::shared_ptr<const place::Route> route = shared.now;
+            const py::gil_scoped_release unlocked;
+            place::write_route(path, *route);
+          },
+          py::arg("path"), "Writes the route database, whole or not at all.")
+      .def(
+          "add", &add, py::arg("name"), py::arg("walk"), py::kw_only(), py::arg("truth") = "",
+          py::arg("trajectory") = "", py::arg("track") = "", py::arg("replace") = false,
+          "Samples a walk and puts it among the traverses, surveyed by one of the files: truth.csv, a "
+          "trajectory (TUM), a "
+          "GPS track (GPX). Returns what a user should know, a list of sentences. Keywords: settings of this "
+          "walk.")
       .def_property_readonly("traverses", &traverses_of,
                              "a list of dicts: name, source, and of its keyframes frame, time_s, distance_m");
 
@@ -323,12 +365,12 @@ void bind_walks(py::module_& module) {
       });
 
   py::class_<PythonFollower>(module, "Follower", "Says where on a route a walker is, frame by frame.")
-      .def(py::init([](const place::Route& route, double lag_s, const py::kwargs& arguments) {
+      .def(py::init([](const PythonRoute& shared, double lag_s, const py::kwargs& arguments) {
              const place::Settings settings = settings_of(arguments);
-             auto own = std::make_unique<const place::Route>(route);
+             std::shared_ptr<const place::Route> route = shared.now;
              const py::gil_scoped_release unlocked;
-             place::Follower follower(*own, settings, {.lag_s = lag_s});
-             return PythonFollower{std::move(own), std::move(follower)};
+             place::Follower follower(*route, settings, {.lag_s = lag_s});
+             return PythonFollower{.route = std::move(route), .follower = std::move(follower)};
            }),
            py::arg("route"), py::kw_only(), py::arg("lag_s") = 0.0,
            "`lag_s`: seconds that a second, surer answer looks back by; 0: none.")

@@ -1,5 +1,6 @@
 """The module on walks and matrices that the tests make: a wall of random blocks seen through a moving window."""
 
+import concurrent.futures
 import sys
 
 import numpy as np
@@ -95,6 +96,9 @@ def test_search_takes_settings_and_refuses_what_is_wrong():
         retrace.search(costs, search_rang_rad=0.3)
     with pytest.raises(retrace.Error, match="sequence-length"):
         retrace.search(costs, sequence_length=0)
+    for beside in ({"enhance": "local"}, {"accept_probability": 0.99}, {"verify": 7}):
+        with pytest.raises(retrace.Error, match="has no effect"):
+            retrace.search(costs, **beside)
     with pytest.raises(ValueError):
         retrace.search(costs[0])
 
@@ -229,3 +233,25 @@ def test_settings_are_those_of_the_table():
 
 if __name__ == "__main__":
     sys.exit(pytest.main([__file__]))
+
+
+def test_settings_of_a_walk_reach_its_traverse(walks, tmp_path):
+    day, _, positions = walks[1]["day"]
+    tum = tmp_path / "day.tum"
+    tum.write_text("".join(f"{i / 30:.4f} 0 {p / 100:.4f} 0 0 0 0 1\n" for i, p in enumerate(positions)))
+    assert retrace.build(day, motion="file", motion_file=str(tum), spacing_m=0.1).traverses
+    assert retrace.build(day, trajectory=str(tum), axes="vehicle").traverses
+    route = retrace.Route()
+    assert isinstance(route.add("day", retrace.read_walk(day, route), trajectory=str(tum), axes="vehicle"), list)
+
+
+def test_a_route_may_grow_while_it_is_used(walks):
+    day = retrace.read_walk(walks[1]["day"][0])
+    route = retrace.build(walks[1]["day"][0])
+    query = retrace.read_walk(walks[1]["night"][0], route)
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        runs = [pool.submit(retrace.localise, route, query) for _ in range(4)]
+        for i in range(8):
+            route.add(f"d{i}", day)
+        assert all(len(run.result().frame) for run in runs)
+    assert len(route.traverses) == 9

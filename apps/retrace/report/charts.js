@@ -194,7 +194,7 @@ function extent(spec, name) {
   if (spec.picture) values.push(...(name === 'x' ? [spec.picture.left, spec.picture.right] : [spec.picture.top, spec.picture.bottom]));
   const low = values.reduce((a, b) => Math.min(a, b), Infinity), high = values.reduce((a, b) => Math.max(a, b), -Infinity);
   if (!(high >= low)) return [0, 1];
-  const margin = name === 'y' || spec.equal ? 0.04 * (high - low || 1) : 0;
+  const margin = name === 'y' || spec.equal ? 0.04 * (high - low || 1) : high === low ? 0.5 : 0;
   return [low - margin, high + margin];
 }
 
@@ -275,7 +275,7 @@ function readByKeys(figure, canvas, spec, chartOf, {zoom, pan}) {
   reading.className = 'reading';
   reading.setAttribute('aria-live', 'polite');
   figure.querySelector('.plot').after(reading);
-  let series = 0, point = -1;
+  let series = Math.max(0, spec.series.findIndex(one => one.x.length > 0)), point = -1;
   const show = () => {
     const chart = chartOf();
     const active = [{datasetIndex: series, index: point}];
@@ -298,7 +298,11 @@ function readByKeys(figure, canvas, spec, chartOf, {zoom, pan}) {
       point = Math.min(Math.max(point + along, 0), count - 1);
       show();
     } else if (between) {
-      series = (series + between + spec.series.length) % spec.series.length;
+      const count = spec.series.length;
+      let next = series;  // that has points: nothing may be accepted, or nothing refused
+      do next = (next + between + count) % count; while (next !== series && spec.series[next].x.length === 0);
+      if (spec.series[next].x.length === 0) return;
+      series = next;
       point = Math.max(0, Math.min(point, spec.series[series].x.length - 1));
       show();
     } else if (spec.zoomable && '+-0='.includes(event.key)) {

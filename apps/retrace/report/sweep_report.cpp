@@ -168,6 +168,7 @@ std::string sweep_report(const std::vector<place::SweepAxis>& axes, const place:
   page.heat_tables(heat_tables(axes, results));
   for (const place::SweepCell& cell : best_of_motions) put_curves(page, axes, results, cell);
   for (std::size_t i = kFurther; i < axes.size(); ++i) {
+    if (axes[i].values.size() < 2) continue;  // nothing to draw it against
     page.heading(axes[i].setting);
     Chart chart{.title = "max-F1 against " + axes[i].setting,
                 .x_title = axes[i].setting,

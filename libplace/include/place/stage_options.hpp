@@ -5,6 +5,7 @@
 #include "place/route/walk_sampling.hpp"
 #include "place/settings.hpp"
 
+#include <optional>
 #include <string>
 
 #include <vo/motion/external_trajectory.hpp>
@@ -31,5 +32,10 @@ StageOptions stage_options(const Settings& resolved, bool follow_steps = false);
 /// How a survey's file is read, as far as given: `axes` and `motion-file-gap-s`, which surveys share with
 /// trajectories that give motion.
 SurveyOptions survey_options(const Settings& given);
+
+/// The settings of a walk that is surveyed by a trajectory or a track: without those that the survey takes
+/// (`survey_options`), unless motion comes from a file too. `motion_of_route`: what the route fixes, if any.
+Settings settings_beside_survey(Settings given, bool by_trajectory, bool by_track,
+                                const std::optional<std::string>& motion_of_route);
 
 }  // namespace place

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace place {
 
@@ -14,6 +15,13 @@ Calibration calibration(std::span<const ProbableMatch> matches, int bins) {
   }
   std::vector<ProbableMatch> sorted(matches.begin(), matches.end());
   std::ranges::stable_sort(sorted, {}, &ProbableMatch::probability);
+  std::vector<double> right(sorted.size());  // matches of one probability share it, whatever their order
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    double sum = 0;
+    for (; end < sorted.size() && sorted[end].probability == sorted[begin].probability; ++end)
+      sum += sorted[end].right ? 1 : 0;
+    for (std::size_t k = begin; k < end; ++k) right[k] = sum / static_cast<double>(end - begin);
+  }
   Calibration result;
   const std::size_t count = std::min(sorted.size(), static_cast<std::size_t>(bins));
   for (std::size_t i = 0; i < count; ++i) {
@@ -23,7 +31,7 @@ Calibration calibration(std::span<const ProbableMatch> matches, int bins) {
     const auto size = static_cast<double>(bin.matches);
     for (std::size_t k = begin; k < end; ++k) {
       bin.mean += sorted[k].probability / size;
-      bin.right += static_cast<double>(sorted[k].right) / size;
+      bin.right += right[k] / size;
     }
     result.error += std::abs(bin.mean - bin.right) * size / static_cast<double>(sorted.size());
     result.bins.push_back(bin);

@@ -1,6 +1,7 @@
 #include "place/evaluation/sweep.hpp"
 
 #include "evaluation/sweep_cell.hpp"
+#include "match/traverse_costs.hpp"
 #include "place/place.hpp"
 #include "place/stage_options.hpp"
 
@@ -110,6 +111,9 @@ class Sweep {
     for (const SweepCell& other : all_cells(axes_)) {  // everything that any of them needs
       if (reading_key(other) != wanted) continue;
       const vo::WalkOptions needed = stages(other).walk;
+      // Settings of what a cell does not do have no effect on it, and are not among its options.
+      if (needed.track_features && !walk.track_features) walk.tracker = needed.tracker;
+      if (needed.visual_odometry && !walk.visual_odometry) walk.vo = needed.vo;
       walk.track_features |= needed.track_features;
       walk.visual_odometry |= needed.visual_odometry;
     }
@@ -153,11 +157,9 @@ class Sweep {
   bool run_together(const std::optional<SampledPair>& sampled, std::size_t begin, std::size_t end) {
     CostMatrix enhanced;
     if (sampled) {
-      enhanced = sampled->cost;
-      const RouteMatchingOptions matching = stages(missing_[begin]).matching;
-      ContrastEnhancementOptions enhancement = matching.enhancement;
-      enhancement.prior_queries = prior_queries_of(matching);
-      enhance_contrast(enhanced, enhancement);
+      TraverseCosts costs{{}, sampled->cost};
+      enhance_compared(costs, 0, stages(missing_[begin]).matching, {});
+      enhanced = std::move(costs.enhanced);
     }
     const std::size_t together = 4 * static_cast<std::size_t>(vo::thread_count());
     for (; begin < end; begin += together) {

@@ -109,7 +109,9 @@ Settings settings_at(const Settings& base, const std::vector<SweepAxis>& axes, c
 }
 
 bool shapes_the_matrix(const std::string& setting) {
-  return setting_named(setting).group != SettingGroup::kSearch || setting == "max-shift-px";
+  // With `compat`, max-shift-px and enhance have no effect.
+  return setting_named(setting).group != SettingGroup::kSearch || setting == "max-shift-px" ||
+         setting == "compat";
 }
 
 CellResult as_written(CellResult result) {

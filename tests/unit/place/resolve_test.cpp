@@ -491,4 +491,12 @@ TEST(Resolve, KnowsWhatARouteHas) {
   EXPECT_EQ(place::on_route(route, Purpose::kRoute).purpose, Purpose::kRoute);
 }
 
+TEST(Resolve, PatchesFillTheThumbnail) {
+  Settings settings;
+  settings.thumbnail_height = 36;
+  expect_refused(settings, kRoute, "patch-px: is 8 and a side of the thumbnail 36");
+  settings.patch_shape = "window";
+  EXPECT_NO_THROW(place::resolve(settings, kRoute));
+}
+
 }  // namespace

@@ -83,7 +83,8 @@ TEST(FollowedSource, OnlyStandardInputWaitsOfWhatIsLive) {
   for (const char* const stream : {"rtsp://camera/1", "rtsps://camera/1"}) {
     FollowedSource source(stream, std::make_unique<ThreeFrames>());
     frames_of(source);
-    EXPECT_THROW_WITH(source.check_end(), vo::Error, std::string(stream) + ": sent no picture");
+    EXPECT_THROW_WITH(source.check_end(), vo::Error,
+                      std::string(stream) + ": sent no picture more: it ended");
   }
 }
 

@@ -63,4 +63,10 @@ TEST(Calibration, RefusesWhatIsNoProbability) {
   EXPECT_THROW(calibration({}, 0), std::invalid_argument);
 }
 
+TEST(Calibration, OfEqualProbabilitiesDoesNotDependOnTheirOrder) {
+  std::vector<ProbableMatch> matches(100, {0.5, false});
+  for (std::size_t i = 0; i < 50; ++i) matches[i].right = true;
+  EXPECT_NEAR(calibration(matches).error, 0, 1e-12);
+}
+
 }  // namespace

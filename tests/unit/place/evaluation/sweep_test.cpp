@@ -213,4 +213,42 @@ TEST_F(SweepTest, ThrowsWhatTheReadersThrow) {
   EXPECT_TRUE(results.empty());
 }
 
+TEST_F(SweepTest, WithoutEnhancementIsTheSameAsARunByItself) {
+  input_.settings.motion = "none";
+  input_.settings.every = 4;
+  input_.settings.search = "path";
+  input_.settings.enhance = "none";
+  SweepResults results;
+  place::sweep(input_, {{"sequence-length", {"10"}}}, results);
+  place::Settings settings = input_.settings;
+  settings.sequence_length = 10;
+  place::Route route = place::new_route(settings);
+  place::add(route, "reference", day_.walk, {}, settings);
+  const auto alone =
+      place::evaluate(place::localise(route, night_.walk, settings), input_.truth, {.tolerance_m = 1});
+  EXPECT_NEAR(results.at({"10"})->max_f1_threshold, alone.evaluation.best.threshold, 1e-6);  // nine digits
+}
+
+TEST_F(SweepTest, ReadsWithTheCameraOfTheCellsThatFollowPoints) {
+  input_.settings.fov_deg = 90;
+  double fov_deg = 0;
+  input_.query = [&](const vo::WalkOptions& options) {
+    fov_deg = options.tracker.fov_deg;
+    return read(night_, options);
+  };
+  SweepResults results;
+  place::sweep(input_, {{"motion", {"sad", "steps"}}}, results);
+  EXPECT_EQ(fov_deg, 90);
+}
+
+TEST_F(SweepTest, ThePublishedProgramFirstChangesNothingOfOurs) {
+  input_.settings.motion = "none";
+  input_.settings.every = 4;
+  input_.settings.enhance = "local";
+  SweepResults both, ours;
+  place::sweep(input_, {{"compat", {"openseqslam", "none"}}}, both);
+  place::sweep(input_, {{"compat", {"none"}}}, ours);
+  EXPECT_EQ(both.at({"none"})->max_f1_threshold, ours.at({"none"})->max_f1_threshold);
+}
+
 }  // namespace
