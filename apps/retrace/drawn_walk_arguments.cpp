@@ -45,11 +45,12 @@ void declare_drawn_walk(Arguments& arguments, simulate::Options& walk) {
   add(arguments, kWalker, "--detour-m", walk.detour_m, "metres walked in all into a side street, and back");
   add(arguments, kWalker, "--start-m", walk.start_m, "metres along the route where the walk begins");
   add(arguments, kWalker, "--people", walk.people, "passers-by met");
-  add(arguments, kCamera, "--failures", walk.failures,
+  Argument failures = arguments.option(
+      "--failures", walk.failures,
       "stretches, spread evenly, in which the camera tells nothing of its motion: by turns black, out of "
-      "focus, "
-      "turned aside and back, before a blank wall [SSS Fig. 9]");
-  add(arguments, kCamera, "--failure-s", walk.failure_s, "seconds that each lasts");
+      "focus, turned aside and back, before a blank wall [SSS Fig. 9]");
+  failures.group(kCamera);
+  arguments.option("--failure-s", walk.failure_s, "seconds that each lasts").group(kCamera).needs(failures);
   add(arguments, kCamera, "--camera-yaw-deg", walk.camera_yaw_deg,
       "degrees that the camera is turned to the right");
   add(arguments, kCamera, "--camera-pitch-deg", walk.camera_pitch_deg,

@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <vo/base/degrees.hpp>
 #include <vo/base/error.hpp>
 
 namespace retrace {
@@ -23,8 +23,7 @@ double rounded_to(double value, double per_unit) {
 constexpr double kMillimetres = 1000, kHundredths = 100, kTenThousandths = 1e4;
 
 double heading_deg(double heading_rad) {
-  const double degrees = rounded_to(heading_rad * 180 / std::numbers::pi, kHundredths);
-  return degrees < 0 ? degrees + 360 : degrees + 0.0;  // rounded first, so never 360; and no -0
+  return std::fmod(rounded_to(vo::compass_deg(heading_rad), kHundredths), 360);  // 359.996 is 0
 }
 
 void put_place(ordered_json& json, const place::FollowedPlace& place) {

@@ -6,13 +6,20 @@
 #include <cstddef>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
+
+#include <vo/base/error.hpp>
 
 namespace simulate {
 
 std::vector<Failure> spread_failures(int count, double length_s, double walk_s) {
   constexpr std::array kKinds{FailureKind::kBlackout, FailureKind::kBlur, FailureKind::kPan,
                               FailureKind::kBlankWall};
+  if (length_s * (count + 1) > walk_s && count > 0)
+    throw vo::Error("failure-s",
+                    fmt::format("is {:g}, and {} of them do not fit into {:.1f} s", length_s, count, walk_s),
+                    "fewer or shorter failures, or a longer walk");
   std::vector<Failure> failures;
   for (int i = 0; i < count; ++i) {
     const double middle_s = walk_s * (i + 1) / (count + 1);

@@ -23,7 +23,8 @@ struct Failure {
   double end_s = 0;
 };
 
-/// So many failures of so many seconds, spread evenly over a walk, one kind after another.
+/// So many failures of so many seconds, spread evenly over a walk, one kind after another. Throws `vo::Error`
+/// if they would overlap.
 std::vector<Failure> spread_failures(int count, double length_s, double walk_s);
 
 /// The failure at a time, if there is one.

@@ -149,6 +149,10 @@ class RefusalsTest(CliTest):
             if traverses == 1:
                 self.assertEqual(before, route.read_bytes())
 
+    def test_refuses_failures_of_a_camera_that_cannot_be_drawn(self):
+        self.refused("simulate", "--failure-s", 5, "-o", self.folder / "walk", says="--failures", code=2)
+        self.refused("simulate", "--length-m", 5, "--failures", 10, "--failure-s", 60, "-o", self.folder / "walk", says="failure-s: is 60")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

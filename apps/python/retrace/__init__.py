@@ -26,6 +26,7 @@ from ._retrace import (
     Walk,
     __version__,
     bootstrap,
+    build,
     calibrate,
     calibration_error,
     cost_matrix,
@@ -41,13 +42,4 @@ from ._retrace import (
     settings,
 )
 
-__all__ = [name for name in dir() if not name.startswith("_")] + ["build", "__version__"]
-
-
-def build(source, name="reference", *, truth="", trajectory="", track="", progress=None, **settings):
-    """A route of one walk: `Route`, `read_walk` and `Route.add` in one call."""
-    of_survey = () if settings.get("motion") == "file" else ("axes",) * bool(trajectory) + ("motion_file_gap_s",) * bool(trajectory or track)
-    of_walk = {key: value for key, value in settings.items() if key not in of_survey}
-    route = Route(**of_walk)
-    route.add(name, read_walk(source, progress=progress, **of_walk), truth=truth, trajectory=trajectory, track=track, **settings)
-    return route
+__all__ = [name for name in dir() if not name.startswith("_")] + ["__version__"]

@@ -20,4 +20,5 @@ PYBIND11_MODULE(_retrace, module) {
   retrace_python::bind_matrices(module);
   retrace_python::bind_evaluation(module);
   retrace_python::bind_walks(module);
+  retrace_python::bind_follower(module);
 }

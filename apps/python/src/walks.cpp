@@ -1,9 +1,9 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "settings_arguments.hpp"
+#include "shared_route.hpp"
 
 #include <memory>
-#include <mutex>
 #include <numbers>
 #include <optional>
 #include <pybind11/stl.h>
@@ -12,9 +12,6 @@
 #include <variant>
 #include <vector>
 
-#include <opencv2/core/mat.hpp>
-
-#include <place/certainty/follower.hpp>
 #include <place/place.hpp>
 #include <place/route/survey.hpp>
 #include <place/stage_options.hpp>
@@ -31,12 +28,6 @@ std::vector<std::string> list_of(const Sources& sources) {
   return std::get<std::vector<std::string>>(sources);
 }
 
-/// A route that threads may share: whoever reads it keeps what it was when he began, and whoever adds to it
-/// puts another in its place.
-struct PythonRoute {
-  std::shared_ptr<const place::Route> now;
-};
-
 /// A trajectory as arrays.
 py::dict as_dict(const vo::Trajectory& trajectory) {
   py::dict result;
@@ -48,7 +39,7 @@ py::dict as_dict(const vo::Trajectory& trajectory) {
   return result;
 }
 
-vo::Walk read_walk(const Sources& sources, const PythonRoute* shared, const py::object& progress,
+vo::Walk read_walk(const Sources& sources, const SharedRoute* shared, const py::object& progress,
                    const py::kwargs& arguments) {
   const std::shared_ptr<const place::Route> route = shared == nullptr ? nullptr : shared->now;
   const place::Settings settings = settings_of(arguments);
@@ -68,7 +59,7 @@ py::array_t<std::uint8_t> thumbnails_of(const vo::Walk& walk) {
   return array;
 }
 
-std::vector<std::string> add(PythonRoute& shared, const std::string& name, const vo::Walk& walk,
+std::vector<std::string> add(SharedRoute& shared, const std::string& name, const vo::Walk& walk,
                              const std::string& truth, const std::string& trajectory,
                              const std::string& track, bool replace, const py::kwargs& arguments) {
   place::Settings settings = settings_of(arguments);
@@ -96,7 +87,25 @@ std::vector<std::string> add(PythonRoute& shared, const std::string& name, const
   return warnings;
 }
 
-py::list traverses_of(const PythonRoute& shared) {
+/// A route of one walk.
+SharedRoute build(const Sources& source, const std::string& name, const std::string& truth,
+                  const std::string& trajectory, const std::string& track, const py::object& progress,
+                  const py::kwargs& arguments) {
+  const place::Settings of_walk = place::settings_beside_survey(settings_of(arguments), !trajectory.empty(),
+                                                                !track.empty(), std::nullopt);
+  const std::vector<std::string> files = list_of(source);
+  const vo::ProgressCallback callback = progress_of(progress);
+  SharedRoute route{std::make_shared<const place::Route>(place::new_route(of_walk))};
+  vo::Walk walk;
+  {
+    const py::gil_scoped_release unlocked;
+    walk = place::read(files, of_walk, callback);
+  }
+  add(route, name, walk, truth, trajectory, track, false, arguments);
+  return route;
+}
+
+py::list traverses_of(const SharedRoute& shared) {
   const place::Route& route = *shared.now;
   py::list all;
   for (const place::Traverse& traverse : route.traverses) {
@@ -112,7 +121,7 @@ py::list traverses_of(const PythonRoute& shared) {
   return all;
 }
 
-place::Run localise(const PythonRoute& shared, const vo::Walk& walk, const py::kwargs& arguments) {
+place::Run localise(const SharedRoute& shared, const vo::Walk& walk, const py::kwargs& arguments) {
   const place::Settings settings = settings_of(arguments);
   const std::shared_ptr<const place::Route> route = shared.now;
   const py::gil_scoped_release unlocked;
@@ -185,73 +194,6 @@ py::dict steps_of(const Odometry& odometry) {
   return result;
 }
 
-/// A follower that counts the frames it is given, by one thread after another.
-struct PythonFollower {
-  std::shared_ptr<const place::Route> route;  ///< as it was when it began
-  place::Follower follower;
-  std::unique_ptr<std::mutex> mutex = std::make_unique<std::mutex>();
-  std::int64_t frames = 0;
-};
-
-py::dict as_dict(const place::FollowedPlace& at) {
-  py::dict result;
-  result["traverse"] = at.traverse;
-  result["reference_frame"] = at.reference_frame;
-  result["probability"] = at.probability;
-  result["sd_keyframes"] = at.sd_keyframes;
-  if (at.distance_m) result["distance_m"] = *at.distance_m;
-  if (at.sd_m) result["sd_m"] = *at.sd_m;
-  if (!at.pose) return result;
-  result["x_m"] = at.pose->x_m;
-  result["y_m"] = at.pose->y_m;
-  const double heading_deg = at.pose->heading_rad * 180 / std::numbers::pi;
-  result["heading_deg"] = heading_deg < 0 ? heading_deg + 360 : heading_deg;
-  return result;
-}
-
-py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
-  if (image.ndim() != 2 && !(image.ndim() == 3 && image.shape(2) == 3))
-    throw py::value_error(
-        "image: uint8 (height, width) or (height, width, 3) in the order blue, green, red expected");
-  place::Position position;
-  {
-    const int kind = image.ndim() == 2 ? CV_8UC1 : CV_8UC3;
-    // OpenCV has no pictures that are only read; this one is.
-    const cv::Mat view(static_cast<int>(image.shape(0)), static_cast<int>(image.shape(1)), kind,
-                       const_cast<std::uint8_t*>(image.data()));
-    const py::gil_scoped_release unlocked;
-    const std::lock_guard one_at_a_time(*self.mutex);
-    position = self.follower.push({.index = self.frames, .time_s = time_s, .image = view, .colour = {}});
-    ++self.frames;
-  }
-  py::dict result = position.place ? as_dict(*position.place) : py::dict();
-  result["frame"] = position.frame;
-  result["time_s"] = position.time_s;
-  result["state"] = place::name_of(position.state);
-  result["off_route"] = position.off_route;
-  if (!position.lag_frame) return result;
-  py::dict lag = position.lag_place ? as_dict(*position.lag_place) : py::dict();
-  lag["frame"] = *position.lag_frame;
-  result["lag"] = lag;
-  return result;
-}
-
-py::list finish(const PythonFollower& self) {
-  std::vector<place::EarlierPlace> last;
-  {
-    const py::gil_scoped_release unlocked;
-    const std::lock_guard one_at_a_time(*self.mutex);
-    last = self.follower.finish();
-  }
-  py::list all;
-  for (const place::EarlierPlace& earlier : last) {
-    py::dict one = earlier.place ? as_dict(*earlier.place) : py::dict();
-    one["frame"] = earlier.frame;
-    all.append(one);
-  }
-  return all;
-}
-
 }  // namespace
 
 void bind_walks(py::module_& module) {
@@ -264,21 +206,21 @@ void bind_walks(py::module_& module) {
       .def_property_readonly("thumbnails", &thumbnails_of, "uint8 (frames, height, width)")
       .def_readonly("warnings", &vo::Walk::warnings);
 
-  py::class_<PythonRoute>(module, "Route", "A reference route: any number of traverses of it.")
+  py::class_<SharedRoute>(module, "Route", "A reference route: any number of traverses of it.")
       .def(py::init([](const py::kwargs& arguments) {
-             return PythonRoute{
+             return SharedRoute{
                  std::make_shared<const place::Route>(place::new_route(settings_of(arguments)))};
            }),
            "A route without traverses. Keywords: settings.")
       .def_static(
           "open",
           [](const std::string& path) {
-            return PythonRoute{std::make_shared<const place::Route>(place::read_route(path))};
+            return SharedRoute{std::make_shared<const place::Route>(place::read_route(path))};
           },
           py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a route database.")
       .def(
           "save",
-          [](const PythonRoute& shared, const std::string& path) {
+          [](const SharedRoute& shared, const std::string& path) {
             const std::shared_ptr<const place::Route> route = shared.now;
             const py::gil_scoped_release unlocked;
             place::write_route(path, *route);
@@ -364,34 +306,16 @@ void bind_walks(py::module_& module) {
         return all;
       });
 
-  py::class_<PythonFollower>(module, "Follower", "Says where on a route a walker is, frame by frame.")
-      .def(py::init([](const PythonRoute& shared, double lag_s, const py::kwargs& arguments) {
-             const place::Settings settings = settings_of(arguments);
-             std::shared_ptr<const place::Route> route = shared.now;
-             const py::gil_scoped_release unlocked;
-             place::Follower follower(*route, settings, {.lag_s = lag_s});
-             return PythonFollower{.route = std::move(route), .follower = std::move(follower)};
-           }),
-           py::arg("route"), py::kw_only(), py::arg("lag_s") = 0.0,
-           "`lag_s`: seconds that a second, surer answer looks back by; 0: none.")
-      .def("push", &push, py::arg("image"), py::arg("time_s"),
-           "The next picture, uint8 (height, width) or BGR (height, width, 3), and its time, later than the "
-           "one before. A dict "
-           "like a line of `retrace follow`: frame, time_s, state ('searching', 'on_route', 'off_route'), "
-           "off_route (the "
-           "probability of being off it), and on the route traverse, reference_frame, distance_m, sd_m, "
-           "probability, x_m, y_m, "
-           "heading_deg.")
-      .def("finish", &finish,
-           "After the last picture: the surer answers that no later one has brought, oldest first, as dicts "
-           "of frame and, where it was on the route, what `push` gives of a place.");
-
   module.def("read_walk", &read_walk, py::arg("source"), py::arg("route") = py::none(), py::kw_only(),
              py::arg("progress") = py::none(),
              "Reads a recording: a video, a folder of images, camera:N, or a list of files that are one "
              "walk; with a route as a "
              "walk that is to be found on it. `progress(stage, done, total)` returns False to stop early. "
              "Keywords: settings.");
+  module.def("build", &build, py::arg("source"), py::arg("name") = "reference", py::kw_only(),
+             py::arg("truth") = "", py::arg("trajectory") = "", py::arg("track") = "",
+             py::arg("progress") = py::none(),
+             "A route of one walk: `Route`, `read_walk` and `Route.add` in one call.");
   module.def("localise", &localise, py::arg("route"), py::arg("walk"),
              "Finds a walk on a route: a Run. Keywords: settings.");
   module.def("evaluate", &evaluate, py::arg("run"), py::kw_only(), py::arg("query_truth") = "",

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <vo/base/error.hpp>
 
@@ -71,8 +72,13 @@ std::vector<ComparedMethod> compare_methods(const SweepInput& input, const std::
     }
     if (result->max_f1 > method->best.result.max_f1) method->best = {cell, *result, {}};
   }
-  std::erase_if(methods,
-                [&](const ComparedMethod& m) { return result_of(results, m.standard.cell) == nullptr; });
+  std::erase_if(methods, [&](const ComparedMethod& method) {
+    if (result_of(results, method.standard.cell) != nullptr) return false;
+    if (callbacks.warn)
+      callbacks.warn(fmt::format("{} is not compared: its default cell {} could not be run",
+                                 fmt::join(method.values, " "), fmt::join(method.standard.cell, " ")));
+    return true;
+  });
 
   SweepResults run = results;
   std::vector<UncertainCell*> cells;

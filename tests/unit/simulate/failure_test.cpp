@@ -6,6 +6,7 @@
 
 #include <simulate/failure.hpp>
 #include <simulate/simulator.hpp>
+#include <vo/base/error.hpp>
 
 namespace {
 
@@ -22,6 +23,12 @@ TEST(SpreadFailures, AreEvenAndTakeTurns) {
   EXPECT_EQ(failures[3].kind, FailureKind::kBlankWall);
   EXPECT_EQ(failures[4].kind, FailureKind::kBlackout);
   EXPECT_TRUE(simulate::spread_failures(0, 2, 60).empty());
+}
+
+TEST(SpreadFailures, DoNotOverlap) {
+  EXPECT_EQ(simulate::spread_failures(5, 10, 60).back().end_s, 55);
+  EXPECT_THROW(simulate::spread_failures(5, 10.5, 60), vo::Error);
+  EXPECT_TRUE(simulate::spread_failures(0, 90, 60).empty());
 }
 
 TEST(FailureAt, IsTheOneAtThatTime) {

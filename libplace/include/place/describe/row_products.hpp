@@ -22,9 +22,6 @@ class RowPanels {
   /// length.
   [[nodiscard]] FloatRows products(const FloatRows& left) const;
 
-  [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] std::size_t width() const { return width_; }
-
  private:
   RowPanels() = default;
 

@@ -37,8 +37,8 @@ void check_compared(const std::vector<SweepAxis>& axes, const std::vector<std::s
 /// (`bootstrap`) of all these cells. The best is chosen on the walk that it is judged on, so its interval is
 /// too high by what the choice gained; with as many cells for each method that favours none. `compared`:
 /// names of axes whose values make a method. `results`: of `sweep`; cells read from a file are run again, as
-/// their queries are needed, so nothing changes but time. Methods without a cell that could be run are left
-/// out; empty if `progress` stopped it. Throws as `check_compared` does.
+/// their queries are needed, so nothing changes but time. Methods whose default cell could not be run are
+/// left out, with a warning; empty if `progress` stopped it. Throws as `check_compared` does.
 std::vector<ComparedMethod> compare_methods(const SweepInput& input, const std::vector<SweepAxis>& axes,
                                             const std::vector<std::string>& compared,
                                             const SweepResults& results, const SweepCallbacks& callbacks = {},

@@ -105,4 +105,18 @@ TEST_F(CompareMethods, LeavesOutWhatCouldNotBeRunAndRefusesUnknownNames) {
                     "--compare enhance: is not varied by this sweep");
 }
 
+TEST_F(CompareMethods, SaysWhichHaveNoDefaultToCompare) {
+  const std::vector<SweepAxis> axes{{"motion", {"sad"}}, {"sequence-length", {"1000", "20"}}};
+  SweepResults results;
+  place::sweep(input_, axes, results);
+  ASSERT_FALSE(results.at({"sad", "1000"}));  // longer than the walks
+  ASSERT_TRUE(results.at({"sad", "20"}));
+  std::vector<std::string> warned;
+  const auto methods = place::compare_methods(
+      input_, axes, {"motion"}, results, {.warn = [&](const std::string& text) { warned.push_back(text); }});
+  EXPECT_TRUE(methods.empty());
+  EXPECT_THAT(warned,
+              testing::ElementsAre("sad is not compared: its default cell sad 1000 could not be run"));
+}
+
 }  // namespace
