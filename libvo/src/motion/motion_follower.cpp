@@ -2,6 +2,7 @@
 
 #include "vo/base/clock.hpp"
 #include "vo/base/median.hpp"
+#include "vo/motion/standing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ constexpr double kDistant_s = 15;  // frames so far apart show places that have 
 constexpr std::size_t kDistantFrames = 30, kDistantErrors = 60;
 // Of unrelated pictures where none were seen yet: drawn and real walks have 0.7 to 1.
 constexpr double kUsualDistantError = 0.8;
-constexpr double kAlike = 2.0 / 3;  // as `StandingOptions::alike`
+constexpr double kAlike = StandingOptions{}.alike;
 // Variance of the distance moved for each second, s^2: what a walk's speed by alignment error differs from
 // the true one by from second to second, and by what a walker's pace differs from the mean.
 constexpr double kVariance = 0.1, kVarianceUnseen = 0.4;

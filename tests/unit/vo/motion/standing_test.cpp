@@ -144,6 +144,45 @@ TEST(StandingFrames, SayNothingOfPicturesOfNothing) {
   for (std::size_t i = 0; i < 160; ++i) EXPECT_EQ(standing[i], i >= 101 && i <= 123) << i;
 }
 
+/// Unrelated pictures of normal pixels, but for frames [40, 80), which turn from one towards another by an
+/// angle: two of them an angle d apart differ by sqrt(2) sin(d / 2) times what unrelated ones do.
+template <typename Angle>
+vo::ImageStack turning_view(Angle angle_rad) {
+  constexpr std::size_t kPixels = 64 * 32;
+  vo::Rng rng(3);
+  const auto byte = [](double x) {
+    return static_cast<std::uint8_t>(std::clamp(std::lround(128 + 16 * x), 0L, 255L));
+  };
+  vo::ImageStack walk = vo::make_image_stack(64, 32, 120);
+  for (auto& pixel : walk.pixels) pixel = byte(rng.normal());
+  std::vector<double> a(kPixels), b(kPixels);
+  for (double& x : a) x = rng.normal();
+  for (double& x : b) x = rng.normal();
+  for (std::size_t i = 40; i < 80; ++i) {
+    const double angle = angle_rad(static_cast<double>(i - 40));
+    for (std::size_t k = 0; k < kPixels; ++k)
+      walk[i][k] = byte(std::cos(angle) * a[k] + std::sin(angle) * b[k]);
+  }
+  return walk;
+}
+
+TEST(StandingFrames, AreNotThoseOfASlowWalkThroughAViewThatChangesLittle) {
+  // By half of what unrelated pictures differ in the 16 frames of 2 s, and by a quarter in 1 s.
+  const double rate = 2 * std::asin(0.5 / std::numbers::sqrt2) / 16;
+  const auto walk = turning_view([&](double i) { return rate * i; });
+  const double unlike = vo::distant_error(walk);
+  EXPECT_THAT(vo::standing_frames(walk, times(120), unlike), Each(false));
+}
+
+TEST(StandingFrames, AreThoseOfAWalkerWhoSways) {
+  // To and fro by a third of what unrelated pictures differ, in 20 frames.
+  const double most = 2 * std::asin(1.0 / 3 / std::numbers::sqrt2);
+  const auto walk =
+      turning_view([&](double i) { return most / 2 * std::sin(2 * std::numbers::pi * i / 20); });
+  const auto standing = vo::standing_frames(walk, times(120), vo::distant_error(walk));
+  for (std::size_t i = 0; i < 120; ++i) EXPECT_EQ(standing[i], i >= 41 && i <= 79) << i;
+}
+
 TEST(StandingFrames, GoByTimeNotByFrames) {
   // 1 Hz: a span of 2 s is 2 frames.
   const auto walk = walk_with_a_stop(12, 4, 8);
