@@ -67,11 +67,13 @@ struct FollowerOptions {
 /// described and compared with every keyframe of the route, and a histogram filter (`PlaceFilter`) joins the
 /// two. Costs are standardised over each traverse as a query's row is (`enhance_contrast`), and each
 /// keyframe's over what was seen before it; what a keyframe's costs usually are is known beforehand from the
-/// route itself, some of whose keyframes play queries. A cost c makes a place exp(-(c + e) / 2) times as
+/// route itself, some of whose keyframes play queries. A cost c makes a place exp(-0.8 (c + e)) times as
 /// probable as being off the route, to the power of the keyframes walked since the last description: pictures
-/// close to each other repeat themselves. e is 1, as for `search_path`, or 0.55 times what places on the
-/// route cost on this walk so far, if that is more. Between two descriptions the place moves on with the
-/// walker.
+/// close to each other repeat themselves. e is 1.5, or 0.55 times what places on the route cost on this walk
+/// so far, if that is more. Between two descriptions the place moves on with the walker.
+///
+/// A walker who is on a street much like one of the route may be taken to be on the route for a while:
+/// tests/RESULTS.md, "Following".
 ///
 /// The first answer needs the route and about five seconds of walk. O(keyframes) for each description, of
 /// which there are two for each keyframe walked; memory does not grow.
