@@ -8,7 +8,8 @@ to half a metre aside. Of every route: the whole walk, and, for two of four, a w
 for 30 m of another street and comes back where it left, and one that is carried 20 m on at a third. Printed: metres walked until
 found; of the frames said to be on the route after that, the share within 2 m and the median error; metres until leaving and
 coming back are said; share of on-route metres that are called off the route; expected calibration error of the probability (to
-be within 2 m, ten bins), and share of errors within 1.64 standard deviations. Needs ffmpeg.
+be within 2 m, ten bins), and share of errors within 1.64 standard deviations. Last, the share of lines that are said to be on
+the route while the walker is on another one, by the walks of the two routes of the same kind before it. Needs ffmpeg.
 """
 
 import argparse
@@ -142,6 +143,12 @@ def walks(options, folder):
                *join(here, "carried", [(walk, 0, length / 3, True), (walk, length / 3 + 20, length, True)]))
 
 
+def elsewhere(walk, route):
+    """The share of lines on the route, of a walk that is never on it."""
+    lines = [json.loads(line) for line in check("follow", walk, "--route", route).splitlines()]
+    return ratio(sum(line["state"] == "on_route" for line in lines), len(lines))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--routes", type=int, default=10)
@@ -150,7 +157,7 @@ def main():
     parser.add_argument("--width", type=int, default=640, help="pixels, of the pictures drawn")
     parser.add_argument("--drawn-only", action="store_true", help="without the shared pairs")
     options = parser.parse_args()
-    everything = []
+    everything, before, never_on_it = [], [], []
     print("| walk | found after m | within 2 m | median m | leaving said after m | back after m | called off the route | "
           "calibration error | within 1.64 sd |\n" + "|---" * 9 + "|")
     with tempfile.TemporaryDirectory(prefix="retrace-follow-") as name:
@@ -164,9 +171,16 @@ def main():
             followed = Followed(walk, route, truth, along)
             everything.append(followed)
             print(row(title, followed), flush=True)
+            if title.split()[-1].isdigit():  # the whole walk on a route drawn here
+                alike = [one for one in before if one[0].split()[0] == title.split()[0]][-2:]
+                never_on_it += [(f"{other} on {title}", elsewhere(its_walk, route)) for other, its_walk in alike]
+                before.append((title, walk))
     told = [one for followed in everything for one in followed.told]
     print(f"all: within 2 m {ratio(sum(e <= 2 for _, e, _ in told), len(told)):.3f}, median {statistics.median(e for _, e, _ in told):.2f} m, "
           f"calibration error {calibration_error(told):.3f}, within 1.64 sd {ratio(sum(e <= 1.64 * sd for _, e, sd in told), len(told)):.3f}")
+    if never_on_it:
+        print(f"on another route: said to be on it {statistics.mean(share for _, share in never_on_it):.3f} of the time; "
+              + ", ".join(f"{name} {share:.2f}" for name, share in never_on_it))
 
 
 if __name__ == "__main__":

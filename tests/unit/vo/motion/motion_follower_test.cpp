@@ -1,11 +1,16 @@
 #include "support/synthetic_walk.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <vo/base/rng.hpp>
 #include <vo/image/patch_normalisation.hpp>
 #include <vo/motion/motion_follower.hpp>
 
@@ -71,6 +76,40 @@ TEST(MotionFollower, NoticesAStandAfterItsSpan) {
     EXPECT_EQ(motion[i].variance_s2, 0);
   }
   EXPECT_FALSE(motion.back().standing);
+}
+
+/// Whether the last of 100 frames at 25 Hz is taken for one of a pause. The view turns from one picture of
+/// normal pixels towards another: an angle d apart, its alignment error is 2 sqrt(2 / pi) sin(d / 2).
+template <typename Angle>
+bool stands_at_last(Angle angle_rad) {
+  constexpr std::size_t kPixels = 2048;
+  vo::Rng rng(4);
+  std::vector<double> a(kPixels), b(kPixels);
+  for (double& x : a) x = rng.normal();
+  for (double& x : b) x = rng.normal();
+  vo::MotionFollower follower;
+  vo::FollowedMotion motion;
+  for (int i = 0; i < 100; ++i) {
+    const double angle = angle_rad(i);
+    std::vector<std::uint8_t> picture(kPixels);
+    for (std::size_t k = 0; k < kPixels; ++k) {
+      const double x = std::cos(angle) * a[k] + std::sin(angle) * b[k];
+      picture[k] = static_cast<std::uint8_t>(std::clamp(std::lround(128 + 16 * x), 0L, 255L));
+    }
+    motion = follower.push(picture, i / 25.0);
+  }
+  return motion.standing;
+}
+
+TEST(MotionFollower, DoesNotTakeASlowWalkForAPause) {
+  // Of unrelated pictures, whose error is taken to be 0.8 until some were seen: half in 2 s, which is 50
+  // frames, and a quarter to and fro.
+  const auto angle_of = [](double error) {
+    return 2 * std::asin(error / (2 * std::sqrt(2 / std::numbers::pi)));
+  };
+  EXPECT_FALSE(stands_at_last([&](int i) { return angle_of(0.4) * i / 50; }));
+  EXPECT_TRUE(
+      stands_at_last([&](int i) { return angle_of(0.2) / 2 * std::sin(2 * std::numbers::pi * i / 33); }));
 }
 
 TEST(MotionFollower, DependsOnNoLaterFrame) {
