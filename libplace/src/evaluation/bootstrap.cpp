@@ -29,26 +29,22 @@ void check(std::span<const TimedQueries> runs, const BootstrapOptions& options) 
   }
 }
 
-/// Cuts all runs at the same times; keeps the segments in which any run has a query with a true place.
+/// Cuts all runs at the same times, into those segments in which any run has a query.
 std::vector<Segments> cut(std::span<const TimedQueries> runs, double segment_s) {
   const auto segment_of = [&](double time_s) {
     return static_cast<std::int64_t>(std::floor(time_s / segment_s));
   };
   std::map<std::int64_t, std::size_t> index;
   for (const TimedQueries& run : runs) {
-    for (std::size_t i = 0; i < run.queries.size(); ++i) {
-      if (run.queries[i].has_truth) index.emplace(segment_of(run.time_s[i]), 0);
-    }
+    for (const double time_s : run.time_s) index.emplace(segment_of(time_s), 0);
   }
   std::size_t count = 0;
   for (auto& [segment, i] : index) i = count++;
   std::vector<Segments> all;
   for (const TimedQueries& run : runs) {
     Segments& segments = all.emplace_back(count);
-    for (std::size_t i = 0; i < run.queries.size(); ++i) {
-      const auto found = index.find(segment_of(run.time_s[i]));
-      if (found != index.end()) segments[found->second].push_back(run.queries[i]);
-    }
+    for (std::size_t i = 0; i < run.queries.size(); ++i)
+      segments[index.at(segment_of(run.time_s[i]))].push_back(run.queries[i]);
   }
   return all;
 }

@@ -41,7 +41,8 @@ struct RunBootstrap {
 /// Neighbouring keyframes see the same place and are right or wrong together, so they must not be drawn one
 /// by one: the walk is cut into segments of equal time, as many segments as there are get drawn with
 /// replacement, and the figures are computed from them. All runs get the same segments in each resample, so
-/// that they can be compared in pairs. Segments without a query with a true place in any run are not drawn.
+/// that they can be compared in pairs. Segments off the route are drawn as well: what is accepted there is
+/// wrong. A resample in which no query has a true place gives no figures.
 ///
 /// Throws `std::invalid_argument` for options out of range, or another number of times than queries. The same
 /// seed gives the same intervals, for any number of threads. O(runs * resamples * n log n), in parallel.

@@ -120,6 +120,28 @@ TEST(Bootstrap, ARunIsNoBetterThanItself) {
   EXPECT_EQ(same.share_above, 0.5);
 }
 
+TEST(Bootstrap, WhatIsAcceptedOffTheRouteIsWrongInTheResamplesToo) {
+  // A segment on the route, all right, and one off it, of one score. Drawn are both: of 20 accepted 10 are
+  // right, of 10 with truth 10 found, F1 2/3; the first alone: 1; the second alone: no figures.
+  TimedQueries run = by_segments({true});
+  for (int i = 0; i < 10; ++i) {
+    run.time_s.push_back(10 + i);
+    run.queries.push_back({.score = run.queries.front().score, .has_truth = false, .error = {}});
+  }
+  const RunBootstrap result = bootstrap_one(run, {.resamples = 4000});
+  std::array<int, 3> count{};
+  for (const double f1 : result.max_f1_of) {
+    const std::size_t kind = std::isnan(f1) ? 0 : f1 < 0.9 ? 1 : 2;
+    if (kind > 0) {
+      ASSERT_DOUBLE_EQ(f1, kind == 1 ? 2.0 / 3 : 1.0);
+    }
+    ++count[kind];
+  }
+  EXPECT_NEAR(count[0], 1000, 137);  // as above
+  EXPECT_NEAR(count[1], 2000, 158);
+  EXPECT_NEAR(count[2], 1000, 137);
+}
+
 TEST(Bootstrap, ConstantRunsAreSure) {
   const RunBootstrap result = bootstrap_one(by_segments({true, true, true}));
   for (const auto& interval :
