@@ -180,7 +180,9 @@ Run localise(const Route& route, const vo::Walk& walk, const Settings& settings,
   StageOptions options = stage_options(run.settings, follows_steps(run.settings, context));
   if (search != nullptr) {
     search->prepare(run.settings, route);
-    options.sampling.scale_costs = [&](const Descriptors& query) { return search->scale_costs(0, query); };
+    options.sampling.scale_costs = [search](std::size_t traverse, const Descriptors& query) {
+      return search->scale_costs(traverse, query);
+    };
     options.matching.traverse_search = search;
   }
   check_read_with(options, walk);

@@ -320,7 +320,7 @@ constexpr std::array kTable{
             .group = kMotion,
             .standard = "true",
             .when = "motion=auto|sad|steps|hybrid|vo|vo-sad|file",
-            .description = "bring each walk to the keyframe spacing of the route's first traverse"},
+            .description = "bring each walk to the keyframe spacing of the traverse that it fits best"},
 
     Setting{.name = "camera",
             .field = &Settings::camera,

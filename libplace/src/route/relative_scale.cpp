@@ -53,6 +53,7 @@ RelativeScale relative_scale(CostMatrix enhanced, const RelativeScaleOptions& op
   RelativeScale found;
   found.best = std::exp((log_scale(first - cost.begin()) + log_scale(last - cost.begin())) / 2);
   found.gain = mean_best_cost(enhanced, 1, options.length) - *best;
+  found.cost = *best;
   if (found.gain >= options.min_gain) found.scale = found.best;
   return found;
 }

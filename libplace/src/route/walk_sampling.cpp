@@ -105,18 +105,25 @@ void take_keyframes(const vo::Walk& walk, std::vector<std::size_t> frames, const
   }
 }
 
-/// The scale that fits keyframes to those of a traverse, by the first descriptor.
-RelativeScale scale_to(const Traverse& reference, const SampledWalk& sampled, const Descriptor& descriptor,
+/// The scale that fits keyframes to those of the traverse whose lines fit them best, by the first descriptor.
+RelativeScale scale_to(const Route& route, const SampledWalk& sampled, const Descriptor& descriptor,
                        const RelativeScaleOptions& scale, const WalkSamplingOptions& options) {
   const Descriptors query = descriptor.comparable(sampled.descriptors.front());
   const DescriptorTraits traits = descriptor.traits();
   const ContrastEnhancementOptions enhancement{.method = Enhancement::kStandardise,
                                                .prior_queries = traits.prior_queries};
-  if (options.scale_costs) return relative_scale(options.scale_costs(query), scale, enhancement);
-  Descriptors compared = descriptor.comparable(reference.descriptors.front());
-  if (count_of(compared) > kMostForScale) compared = select(compared, candidates(query, compared));
-  return relative_scale(cost_matrix(*descriptor_costs(query, compared, traits, options.max_shift_px)), scale,
-                        enhancement);
+  const auto costs_on = [&](std::size_t traverse) {
+    if (options.scale_costs) return options.scale_costs(traverse, query);
+    Descriptors compared = descriptor.comparable(route.traverses[traverse].descriptors.front());
+    if (count_of(compared) > kMostForScale) compared = select(compared, candidates(query, compared));
+    return cost_matrix(*descriptor_costs(query, compared, traits, options.max_shift_px));
+  };
+  RelativeScale best;
+  for (std::size_t t = 0; t < route.traverses.size(); ++t) {
+    const RelativeScale fitted = relative_scale(costs_on(t), scale, enhancement);
+    if (t == 0 || fitted.cost < best.cost) best = fitted;
+  }
+  return best;
 }
 
 /// `sample_walk` without its points.
@@ -158,7 +165,7 @@ SampledWalk described_walk(const vo::Walk& walk, const WalkSamplingOptions& opti
   if (reference == nullptr || !options.tie_scale) return sampled;
 
   const RelativeScale tie =
-      scale_to(*reference, sampled, *descriptors->front(),
+      scale_to(*on, sampled, *descriptors->front(),
                motion.metric && route->metric ? options.metric_scale : options.relative_scale, options);
   sampled.scale_gain = tie.gain;
   if (tie.scale == 1) return sampled;

@@ -29,7 +29,7 @@ struct WalkSamplingOptions {
   int every = 1;                    ///< frames between keyframes, with `kNone`
   std::optional<double> n;          ///< SSS Eq. 4's n, with motion
   std::optional<double> spacing_m;  ///< u in metres, instead of Eq. 4, if the motion is metric
-  bool tie_scale = true;  ///< scale a walk to the spacing of the route's first traverse (`relative_scale`)
+  bool tie_scale = true;  ///< scale a walk to the spacing of the route's traverses (`relative_scale`)
   /// What keyframes are described with; null: thumbnails, with the motion's patches.
   std::shared_ptr<const DescriptorSet> descriptors;
   std::optional<int> max_shift_px;  ///< see `descriptor_costs`
@@ -37,9 +37,9 @@ struct WalkSamplingOptions {
   /// kept.
   std::optional<std::size_t> points_record;
   RelativeScaleOptions relative_scale;
-  /// The costs of a walk's first descriptors, comparable, against a route's first traverse, for `tie_scale`;
-  /// empty: of its descriptors in memory.
-  std::function<CostMatrix(const Descriptors& query)> scale_costs;
+  /// The costs of a walk's first descriptors, comparable, against a traverse, for `tie_scale`; empty: of its
+  /// descriptors in memory.
+  std::function<CostMatrix(std::size_t traverse, const Descriptors& query)> scale_costs;
   /// The same if both walks are in metres, from steps: their lengths differ by a tenth or two where speeds
   /// differ by half.
   RelativeScaleOptions metric_scale{.prior_weight = 1};
@@ -66,9 +66,10 @@ struct SampledWalk {
 /// Samples a walk (SSS 3.3) and describes its keyframes. With motion, keyframes are a unit of displacement
 /// apart: `spacing_m` if the motion is metric, else from Eq. 4 with `n`. A walk on a route uses the unit of
 /// the route's first traverse, adjusted in proportion if its own `n` or `spacing_m` differs from the route's,
-/// and its scale is tied to that traverse if the matches show it clearly (`RelativeScale`). After a gap too
-/// long to fill (`vo::parts_walk`), whose distance is unknown, sampling restarts. `route`: null, or without
-/// traverses, for a first walk, which the descriptors learn from.
+/// and its scale is tied to the traverse that it fits best, if the matches show it clearly (`RelativeScale`):
+/// others may be of another stretch or another light. After a gap too long to fill (`vo::parts_walk`), whose
+/// distance is unknown, sampling restarts. `route`: null, or without traverses, for a first walk, which the
+/// descriptors learn from.
 ///
 /// Throws `vo::Error` naming the walk if it shows no motion to learn from, or has no metres but only
 /// `spacing_m` is given; `std::invalid_argument` if neither is, or if the walk was read without what the

@@ -107,6 +107,15 @@ TEST_F(WalkSamplingTest, TiesTheScaleToTheFirstTraverse) {
   EXPECT_EQ(loose.unit, route_.unit);
 }
 
+TEST_F(WalkSamplingTest, TiesTheScaleToTheTraverseThatTheWalkFits) {
+  place::Route route;
+  add_traverse(route, "elsewhere", steady_walk(Wall(kWallPx, 2), 0.5));
+  add_traverse(route, "by day", steady_walk(wall_, 0.5));
+  place::WalkSamplingOptions options;
+  options.n = kSamplingN;
+  EXPECT_NEAR(place::sample_walk(steady_walk(wall_, 0.9).walk, options, &route).scale, 1.8, 0.2);
+}
+
 TEST_F(WalkSamplingTest, BeginsAnewAfterALongJumpOfTheClock) {
   const auto known = steady_walk(wall_, 0.5);
   const auto plain = sample_query(known, route_);
