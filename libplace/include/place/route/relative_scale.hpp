@@ -24,7 +24,7 @@ struct RelativeScale {
   double scale = 1;  ///< the best if it gains enough, else 1
   double best = 1;   ///< the best
   double gain = 0;   ///< deviations of cost that lines of the best scale gain over those of scale 1
-  double cost = 0;   ///< of the best scale's lines, in deviations, the mean over all queries; below 0 they fit
+  double cost = 0;   ///< of the best scale's lines in deviations, the mean over all queries
 };
 
 /// The length of a query keyframe step in reference keyframe steps, found by matching alone.
