@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(cmake g++ ninja-build libopencv-dev libavformat-dev libswscale-dev libeigen3-dev libceres-dev libsqlite3-dev libpugixml-dev libexiv2-dev libcli11-dev nlohmann-json3-dev
   libspdlog-dev libfmt-dev libflann-dev liblz4-dev libcpp-httplib-dev libjs-chart.js)
 if [[ "${1:-}" == --tests ]]; then
-  packages+=(libgtest-dev libgmock-dev clang-format clang-tidy clang-14 libclang-rt-14-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev ffmpeg bc
+  packages+=(libgtest-dev libgmock-dev clang-format clang-tidy clang-14 libclang-rt-14-dev python3 python3-dev python3-numpy python3-pytest python3-matplotlib python3-opencv pybind11-dev ffmpeg bc
     chromium chromium-driver python3-selenium lintian dpkg-dev file slurmctld slurmd slurm-client munge openmpi-bin libopenmpi-dev g++-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static)
 fi
 if [[ "${1:-}" == --benches ]]; then

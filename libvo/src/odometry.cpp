@@ -3,6 +3,7 @@
 #include "vo/base/error.hpp"
 #include "vo/base/median.hpp"
 #include "vo/base/parallel.hpp"
+#include "vo/base/stopping.hpp"
 #include "vo/gait/playback.hpp"
 
 #include <algorithm>
@@ -71,7 +72,10 @@ void keep(const std::vector<Frame>& batch, const WalkOptions& options, Trackers&
   parallel_invoke(
       [&] {
         if (!options.visual_odometry) return;
-        for (const Frame& frame : batch) trackers.visual_odometry.push(frame.image, frame.time_s);
+        for (const Frame& frame : batch) {
+          stop_if_asked();
+          trackers.visual_odometry.push(frame.image, frame.time_s);
+        }
       },
       [&] {
         if (!options.track_features) return;

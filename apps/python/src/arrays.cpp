@@ -1,13 +1,13 @@
 #include "arrays.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace retrace_python {
 
 CostsArgument::CostsArgument(const py::object& object) {
   if (py::isinstance<place::CostMatrix>(object)) {
-    matrix_ = object.cast<const place::CostMatrix*>();
+    kept_ = object;
+    matrix_ = *object.cast<const place::CostMatrix*>();
     return;
   }
   const auto array = Floats::ensure(object);
@@ -15,27 +15,23 @@ CostsArgument::CostsArgument(const py::object& object) {
     PyErr_Clear();
     throw py::value_error("costs: a CostMatrix or an array of queries x references expected");
   }
-  copy_ = place::make_cost_matrix(static_cast<std::size_t>(array.shape(0)),
-                                  static_cast<std::size_t>(array.shape(1)));
-  std::copy_n(array.data(), array.size(), copy_.values.begin());
-  matrix_ = &copy_;
+  kept_ = array;
+  matrix_ = {static_cast<std::size_t>(array.shape(0)),
+             static_cast<std::size_t>(array.shape(1)),
+             {array.data(), static_cast<std::size_t>(array.size())}};
 }
 
-vo::ImageStack image_stack(const Bytes& array) {
+vo::ImageStackView image_stack(const Bytes& array) {
   if (array.ndim() != 2 && array.ndim() != 3)
     throw py::value_error("an array (n, values) or (n, height, width) expected");
-  const auto count = static_cast<std::size_t>(array.shape(0));
-  const auto height = array.ndim() == 3 ? static_cast<int>(array.shape(1)) : 1;
-  const auto width = static_cast<int>(array.shape(array.ndim() - 1));
-  vo::ImageStack stack = vo::make_image_stack(width, height, count);
-  std::copy_n(array.data(), array.size(), stack.pixels.begin());
-  return stack;
+  return {static_cast<int>(array.shape(array.ndim() - 1)),
+          array.ndim() == 3 ? static_cast<int>(array.shape(1)) : 1,
+          {array.data(), static_cast<std::size_t>(array.size())}};
 }
 
-place::FloatRows float_rows(const Floats& array) {
+place::FloatRowsView float_rows(const Floats& array) {
   if (array.ndim() != 2) throw py::value_error("an array (n, values) expected");
-  return {.width = static_cast<std::size_t>(array.shape(1)),
-          .values = std::vector<float>(array.data(), array.data() + array.size())};
+  return {static_cast<std::size_t>(array.shape(1)), {array.data(), static_cast<std::size_t>(array.size())}};
 }
 
 py::array_t<double> array_of(const std::vector<double>& values) {

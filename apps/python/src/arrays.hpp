@@ -18,25 +18,26 @@ namespace retrace_python {
 
 namespace py = pybind11;
 
-using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
+constexpr int kInOrder = int{py::array::c_style} | int{py::detail::npy_api::NPY_ARRAY_ALIGNED_};
+using Floats = py::array_t<float, kInOrder | int{py::array::forcecast}>;
+using Doubles = py::array_t<double, kInOrder | int{py::array::forcecast}>;
+using Bytes = py::array_t<std::uint8_t, kInOrder>;
 
-/// A matrix for the libraries: the object's own if it is a `CostMatrix`, else a copy of an array of queries
-/// by references. Throws `ValueError` for anything else.
+/// A matrix for the libraries, looked at where it is: a `CostMatrix`, or an array of queries by references.
+/// An array that is not float32 in C's order is copied first. Throws `ValueError` for anything else.
 class CostsArgument {
  public:
   explicit CostsArgument(const py::object& object);
-  [[nodiscard]] const place::CostMatrix& matrix() const { return *matrix_; }
+  [[nodiscard]] const place::CostView& matrix() const { return matrix_; }
 
  private:
-  place::CostMatrix copy_;
-  const place::CostMatrix* matrix_ = nullptr;
+  py::object kept_;  ///< what the view looks at
+  place::CostView matrix_;
 };
 
-/// Pictures or descriptors, one for each row: (n, values) or (n, height, width).
-vo::ImageStack image_stack(const Bytes& array);
-place::FloatRows float_rows(const Floats& array);
+/// Pictures or descriptors, one for each row: (n, values) or (n, height, width), looked at where they are.
+vo::ImageStackView image_stack(const Bytes& array);
+place::FloatRowsView float_rows(const Floats& array);
 
 /// An array of the values; what is none becomes `none`.
 template <typename Value, typename Of, typename Get>

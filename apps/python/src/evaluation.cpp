@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "unlocked.hpp"
 
 #include <cmath>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <place/evaluation/bootstrap.hpp>
 #include <place/evaluation/calibration.hpp>
 #include <place/evaluation/evaluation.hpp>
+#include <place/place.hpp>
 
 namespace retrace_python {
 namespace {
@@ -61,6 +63,29 @@ py::dict evaluate_matches(const Doubles& place, const Doubles& score, const Doub
   return as_dict(place::evaluate(scored(place, score, truth), tolerance));
 }
 
+py::dict evaluate(const place::Run& run, const std::string& query_truth, const std::string& reference_truth,
+                  const std::string& pairs, std::optional<double> tolerance_m,
+                  std::optional<double> tolerance_frames) {
+  if (pairs.empty() ? query_truth.empty() || reference_truth.empty() : !query_truth.empty())
+    throw py::value_error("pairs, or query_truth and reference_truth, expected");
+  place::GroundTruth truth;
+  if (pairs.empty()) {
+    truth = place::truth(query_truth, reference_truth);
+  } else {
+    truth.pairs = place::read_pairs(pairs);
+    if (!reference_truth.empty()) truth.reference_distance_m = place::distances_on(reference_truth);
+  }
+  const place::RunEvaluation found =
+      place::evaluate(run, truth, {.tolerance_m = tolerance_m, .tolerance_frames = tolerance_frames});
+  py::dict result = as_dict(found.evaluation);
+  result["accepted_precision"] = found.accepted.precision;
+  result["accepted_recall"] = found.accepted.recall;
+  result["calibration_error"] =
+      found.calibration ? py::object(py::float_(found.calibration->error)) : py::object(py::none());
+  result["error"] = array_of<double>(found.errors, [](const auto& error) { return or_nan(error.error); });
+  return result;
+}
+
 py::object interval(const std::optional<place::Interval>& of) {
   if (!of) return py::none();
   return py::make_tuple(of->low, of->high);
@@ -75,11 +100,8 @@ py::list bootstrap(const std::vector<std::tuple<Doubles, Doubles, Doubles, Doubl
   }
   const place::BootstrapOptions options{
       .resamples = resamples, .segment_s = segment_s, .confidence = confidence, .seed = seed};
-  std::vector<place::RunBootstrap> found;
-  {
-    const py::gil_scoped_release unlocked;
-    found = place::bootstrap(timed, tolerance, options);
-  }
+  const std::vector<place::RunBootstrap> found =
+      unlocked([&] { return place::bootstrap(timed, tolerance, options); });
   py::list all;
   for (const place::RunBootstrap& run : found) {
     py::dict one;
@@ -117,6 +139,11 @@ void bind_evaluation(py::module_& module) {
              "index, frame or metres), NaN or below 0 for none; `truth`: the true one in the same unit, NaN "
              "where there is none. "
              "A dict like metrics.json, with the `curve` as arrays.");
+  module.def("evaluate", &evaluate, py::arg("run"), py::kw_only(), py::arg("query_truth") = "",
+             py::arg("reference_truth") = "", py::arg("pairs") = "", py::arg("tolerance_m") = py::none(),
+             py::arg("tolerance_frames") = py::none(),
+             "Precision, recall and errors of a run against truth.csv of both walks, or pairs.csv; a dict "
+             "like metrics.json, with the `curve` as arrays.");
   module.def("bootstrap", &bootstrap, py::arg("runs"), py::arg("tolerance"), py::kw_only(),
              py::arg("resamples") = 2000, py::arg("segment_s") = 10.0, py::arg("confidence") = 0.95,
              py::arg("seed") = 1,

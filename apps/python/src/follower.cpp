@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "settings_arguments.hpp"
 #include "shared_route.hpp"
+#include "unlocked.hpp"
 
 #include <memory>
 #include <mutex>
@@ -51,7 +52,8 @@ py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
     // OpenCV has no pictures that are only read; this one is.
     const cv::Mat view(static_cast<int>(image.shape(0)), static_cast<int>(image.shape(1)), kind,
                        const_cast<std::uint8_t*>(image.data()));
-    const py::gil_scoped_release unlocked;
+    // Not to be stopped within a frame, which takes milliseconds: half a step would be taken for the next.
+    const py::gil_scoped_release released;
     const std::lock_guard one_at_a_time(*self.mutex);
     position = self.follower.push({.index = self.frames, .time_s = time_s, .image = view, .colour = {}});
     ++self.frames;
@@ -71,7 +73,7 @@ py::dict push(PythonFollower& self, const Bytes& image, double time_s) {
 py::list finish(const PythonFollower& self) {
   std::vector<place::EarlierPlace> last;
   {
-    const py::gil_scoped_release unlocked;
+    const py::gil_scoped_release released;
     const std::lock_guard one_at_a_time(*self.mutex);
     last = self.follower.finish();
   }
@@ -91,8 +93,8 @@ void bind_follower(py::module_& module) {
       .def(py::init([](const SharedRoute& shared, double lag_s, const py::kwargs& arguments) {
              const place::Settings settings = settings_of(arguments);
              std::shared_ptr<const place::Route> route = shared.now;
-             const py::gil_scoped_release unlocked;
-             place::Follower follower(*route, settings, {.lag_s = lag_s});
+             place::Follower follower =
+                 unlocked([&] { return place::Follower(*route, settings, {.lag_s = lag_s}); });
              return PythonFollower{.route = std::move(route), .follower = std::move(follower)};
            }),
            py::arg("route"), py::kw_only(), py::arg("lag_s") = 0.0,

@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "settings_arguments.hpp"
+#include "unlocked.hpp"
 
 #include <algorithm>
 #include <array>
@@ -43,9 +44,12 @@ py::array_t<float> patch_normalise(const Bytes& images, int patch_px, const std:
   const std::uint8_t* const from = images.data();
   float* const to = out.mutable_data();
   const std::size_t count = size == 0 ? 0 : static_cast<std::size_t>(images.size()) / size;
-  const py::gil_scoped_release unlocked;
-  for (std::size_t i = 0; i < count; ++i)
-    vo::patch_normalise({from + i * size, size}, width, height, options, {to + i * size, size});
+  unlocked([&] {
+    for (std::size_t i = 0; i < count; ++i) {
+      vo::stop_if_asked();
+      vo::patch_normalise({from + i * size, size}, width, height, options, {to + i * size, size});
+    }
+  });
   return out;
 }
 
@@ -57,19 +61,25 @@ place::Metric metric_of(const std::string& name) {
 }
 
 place::CostMatrix cost_matrix(const py::array& query, const py::array& reference, const std::string& metric) {
-  using AnyBytes = py::array_t<std::uint8_t>;  // strided too; `image_stack` copies it
+  using AnyBytes = py::array_t<std::uint8_t>;  // strided too; `Bytes` copies it
   const bool bytes = py::isinstance<AnyBytes>(query) && py::isinstance<AnyBytes>(reference);
   if (bytes && metric == "sad") {
-    const vo::ImageStack queries = image_stack(query), references = image_stack(reference);
-    const py::gil_scoped_release unlocked;
-    return place::cost_matrix(queries, references);
+    const Bytes queries(query), references(reference);
+    const vo::ImageStackView query_images = image_stack(queries), reference_images = image_stack(references);
+    return unlocked([&] { return place::cost_matrix(query_images, reference_images); });
   }
   if (metric == "sad")
     throw py::value_error("metric 'sad' takes uint8 arrays; for floats 'cosine', 'l1' or 'l2' expected");
-  const place::FloatRows queries = float_rows(Floats(query)), references = float_rows(Floats(reference));
+  const Floats queries(query), references(reference);
+  const place::FloatRowsView query_rows = float_rows(queries), reference_rows = float_rows(references);
   const place::Metric of_rows = metric_of(metric);
-  const py::gil_scoped_release unlocked;
-  return place::cost_matrix(place::FloatCosts(queries, references, of_rows));
+  return unlocked([&] { return place::cost_matrix(place::FloatCosts(query_rows, reference_rows, of_rows)); });
+}
+
+place::CostMatrix copy_of(const place::CostView& costs) {
+  place::CostMatrix matrix = place::make_cost_matrix(costs.queries, costs.references);
+  std::ranges::copy(costs.values, matrix.values.begin());
+  return matrix;
 }
 
 place::CostMatrix enhance(const py::object& costs, const std::string& method, int window,
@@ -82,9 +92,8 @@ place::CostMatrix enhance(const py::object& costs, const std::string& method, in
   } else if (method != "standardise") {
     throw py::value_error("method: 'standardise', 'local' or 'none' expected");
   }
-  place::CostMatrix enhanced = CostsArgument(costs).matrix();
-  const py::gil_scoped_release unlocked;
-  place::enhance_contrast(enhanced, options);
+  place::CostMatrix enhanced = copy_of(CostsArgument(costs).matrix());
+  unlocked([&] { place::enhance_contrast(enhanced, options); });
   return enhanced;
 }
 
@@ -113,11 +122,8 @@ Found search(const py::object& costs, const std::string& method, int sequence_le
                                .gaps = {.query = query_gaps, .reference = reference_gaps}};
   if (steps) options.path.steps = *steps;
   const CostsArgument argument(costs);
-  place::SureMatches found;
-  {
-    const py::gil_scoped_release unlocked;
-    found = place::search_surely(argument.matrix(), place::search_method(method), options);
-  }
+  const place::SureMatches found = unlocked(
+      [&] { return place::search_surely(argument.matrix(), place::search_method(method), options); });
   const auto& all = found.matches;
   return {array_of<std::int64_t>(all,
                                  [](const place::SureMatch& m) {
@@ -146,8 +152,8 @@ void bind_matrices(py::module_& module) {
   py::class_<place::CostMatrix>(module, "CostMatrix", py::buffer_protocol(),
                                 "Costs of queries (rows) by references, float32, lower is more alike. "
                                 "numpy.asarray(matrix) looks at it without a copy.")
-      .def(py::init([](const Floats& array) { return CostsArgument(array).matrix(); }), py::arg("array"),
-           "A copy of a float array (queries, references).")
+      .def(py::init([](const Floats& array) { return copy_of(CostsArgument(array).matrix()); }),
+           py::arg("array"), "A copy of a float array (queries, references).")
       .def_property_readonly(
           "shape", [](const place::CostMatrix& m) { return py::make_tuple(m.queries, m.references); })
       .def_buffer([](place::CostMatrix& m) {
@@ -180,8 +186,8 @@ void bind_matrices(py::module_& module) {
              py::arg("sequence_length") = 10, py::arg("steps") = py::none(),
              py::arg("query_gaps") = std::vector<std::size_t>{},
              py::arg("reference_gaps") = std::vector<std::size_t>{},
-             "Where each query is on the reference, by enhanced costs (a CostMatrix without a copy, or a "
-             "float array): method "
+             "Where each query is on the reference, by enhanced costs (a CostMatrix, or an array, "
+             "which is read where it is if it is float32 in C's order and must not change meanwhile): method "
              "'path', 'lines', 'cone', 'hybrid' or 'graph'. `steps`: references that the walk moved to each "
              "query, for 'path'. "
              "`query_gaps`, `reference_gaps`: indices before which a walk was interrupted. Further keywords: "

@@ -18,7 +18,7 @@ PYBIND11_MODULE(_retrace, module) {
   module.def("set_threads", &vo::set_thread_count, py::arg("count"),
              "Threads that all functions use together; 0: one for each core. Results do not depend on it.");
   retrace_python::bind_matrices(module);
-  retrace_python::bind_evaluation(module);
   retrace_python::bind_walks(module);
+  retrace_python::bind_evaluation(module);
   retrace_python::bind_follower(module);
 }

@@ -45,11 +45,10 @@ py::list settings_list() {
 }
 
 vo::ProgressCallback progress_of(const py::object& progress) {
+  if (progress.is_none()) return {};
   // The object lives as long as the call that it is given to.
   return [progress = progress.ptr()](const vo::Progress& now) {
     const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (progress == Py_None) return true;
     const py::object total = now.total ? py::object(py::int_(*now.total)) : py::object(py::none());
     const py::object go_on = py::handle(progress)(std::string(now.stage), now.done, total);
     return go_on.is_none() || go_on.cast<bool>();

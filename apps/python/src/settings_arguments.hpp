@@ -17,8 +17,7 @@ place::Settings settings_of(const py::kwargs& arguments);
 /// Every setting as a dictionary of text, for `retrace.settings()`.
 py::list settings_list();
 
-/// Calls `progress(stage, done, total)`, if it is not None, and ends the work when Ctrl-C was pressed. For
-/// work that released the interpreter's lock.
+/// Calls `progress(stage, done, total)`; nothing for None. For work that released the interpreter's lock.
 vo::ProgressCallback progress_of(const py::object& progress);
 
 }  // namespace retrace_python

@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "settings_arguments.hpp"
 #include "shared_route.hpp"
+#include "unlocked.hpp"
 
 #include <memory>
 #include <numbers>
@@ -45,9 +46,10 @@ vo::Walk read_walk(const Sources& sources, const SharedRoute* shared, const py::
   const place::Settings settings = settings_of(arguments);
   const std::vector<std::string> files = list_of(sources);
   const vo::ProgressCallback callback = progress_of(progress);
-  const py::gil_scoped_release unlocked;
-  return route == nullptr ? place::read(files, settings, callback)
-                          : place::read(files, *route, settings, callback);
+  return unlocked([&] {
+    return route == nullptr ? place::read(files, settings, callback)
+                            : place::read(files, *route, settings, callback);
+  });
 }
 
 py::array_t<std::uint8_t> thumbnails_of(const vo::Walk& walk) {
@@ -68,8 +70,7 @@ std::vector<std::string> add(SharedRoute& shared, const std::string& name, const
   const std::shared_ptr<const place::Route> before = shared.now;
   std::shared_ptr<place::Route> next;
   std::vector<std::string> warnings;
-  {
-    const py::gil_scoped_release unlocked;
+  unlocked([&] {
     next = std::make_shared<place::Route>(*before);
     const place::SurveyOptions form = place::survey_options(settings);
     std::optional<place::Survey> survey;
@@ -81,7 +82,7 @@ std::vector<std::string> add(SharedRoute& shared, const std::string& name, const
                                              next->settings.motion);
     const place::AddedTraverse added = place::add(*next, name, walk, survey, settings, replace);
     warnings.insert(warnings.end(), added.warnings.begin(), added.warnings.end());
-  }
+  });
   if (shared.now != before) throw py::value_error("Route.add: another thread added to it meanwhile");
   shared.now = next;
   return warnings;
@@ -96,11 +97,7 @@ SharedRoute build(const Sources& source, const std::string& name, const std::str
   const std::vector<std::string> files = list_of(source);
   const vo::ProgressCallback callback = progress_of(progress);
   SharedRoute route{std::make_shared<const place::Route>(place::new_route(of_walk))};
-  vo::Walk walk;
-  {
-    const py::gil_scoped_release unlocked;
-    walk = place::read(files, of_walk, callback);
-  }
+  const vo::Walk walk = unlocked([&] { return place::read(files, of_walk, callback); });
   add(route, name, walk, truth, trajectory, track, false, arguments);
   return route;
 }
@@ -124,44 +121,7 @@ py::list traverses_of(const SharedRoute& shared) {
 place::Run localise(const SharedRoute& shared, const vo::Walk& walk, const py::kwargs& arguments) {
   const place::Settings settings = settings_of(arguments);
   const std::shared_ptr<const place::Route> route = shared.now;
-  const py::gil_scoped_release unlocked;
-  return place::localise(*route, walk, settings);
-}
-
-py::dict evaluate(const place::Run& run, const std::string& query_truth, const std::string& reference_truth,
-                  const std::string& pairs, std::optional<double> tolerance_m,
-                  std::optional<double> tolerance_frames) {
-  if (pairs.empty() ? query_truth.empty() || reference_truth.empty() : !query_truth.empty())
-    throw py::value_error("pairs, or query_truth and reference_truth, expected");
-  place::GroundTruth truth;
-  if (pairs.empty()) {
-    truth = place::truth(query_truth, reference_truth);
-  } else {
-    truth.pairs = place::read_pairs(pairs);
-    if (!reference_truth.empty()) truth.reference_distance_m = place::distances_on(reference_truth);
-  }
-  const place::RunEvaluation found =
-      place::evaluate(run, truth, {.tolerance_m = tolerance_m, .tolerance_frames = tolerance_frames});
-  const place::Evaluation& e = found.evaluation;
-  py::dict result;
-  result["queries"] = e.queries;
-  result["with_truth"] = e.with_truth;
-  result["max_f1"] = e.best.f1;
-  result["max_f1_threshold"] = e.best.threshold;
-  result["tp"] = e.best.true_positives;
-  result["fp"] = e.best.false_positives;
-  result["fn"] = e.best.false_negatives;
-  result["precision"] = e.best.precision;
-  result["recall"] = e.best.recall;
-  result["auc_pr"] = e.auc_pr;
-  result["recall_at_100_precision"] = e.recall_at_100_precision;
-  result["recall_at_1"] = e.recall_at_1;
-  result["accepted_precision"] = found.accepted.precision;
-  result["accepted_recall"] = found.accepted.recall;
-  result["calibration_error"] =
-      found.calibration ? py::object(py::float_(found.calibration->error)) : py::object(py::none());
-  result["error"] = array_of<double>(found.errors, [](const auto& error) { return or_nan(error.error); });
-  return result;
+  return unlocked([&] { return place::localise(*route, walk, settings); });
 }
 
 /// What `odometry` found.
@@ -174,14 +134,15 @@ Odometry odometry(const Sources& sources, const py::object& progress, const py::
   const place::Settings settings = settings_of(arguments);
   const std::vector<std::string> files = list_of(sources);
   const vo::ProgressCallback callback = progress_of(progress);
-  const py::gil_scoped_release unlocked;
-  place::StageOptions stages =
-      place::stage_options(place::resolve(settings, {.purpose = place::Purpose::kOdometry}), true);
-  stages.walk.preview_width_px = 0;
-  Odometry result;
-  result.walk = vo::read_walk(files, stages.walk, callback);
-  result.motion = vo::motion_with_steps(result.walk, stages.sampling.source, stages.sampling.motion);
-  return result;
+  return unlocked([&] {
+    place::StageOptions stages =
+        place::stage_options(place::resolve(settings, {.purpose = place::Purpose::kOdometry}), true);
+    stages.walk.preview_width_px = 0;
+    Odometry result;
+    result.walk = vo::read_walk(files, stages.walk, callback);
+    result.motion = vo::motion_with_steps(result.walk, stages.sampling.source, stages.sampling.motion);
+    return result;
+  });
 }
 
 py::dict steps_of(const Odometry& odometry) {
@@ -215,15 +176,15 @@ void bind_walks(py::module_& module) {
       .def_static(
           "open",
           [](const std::string& path) {
-            return SharedRoute{std::make_shared<const place::Route>(place::read_route(path))};
+            return unlocked(
+                [&] { return SharedRoute{std::make_shared<const place::Route>(place::read_route(path))}; });
           },
-          py::arg("path"), py::call_guard<py::gil_scoped_release>(), "Reads a route database.")
+          py::arg("path"), "Reads a route database.")
       .def(
           "save",
           [](const SharedRoute& shared, const std::string& path) {
             const std::shared_ptr<const place::Route> route = shared.now;
-            const py::gil_scoped_release unlocked;
-            place::write_route(path, *route);
+            unlocked([&] { place::write_route(path, *route); });
           },
           py::arg("path"), "Writes the route database, whole or not at all.")
       .def(
@@ -318,11 +279,6 @@ void bind_walks(py::module_& module) {
              "A route of one walk: `Route`, `read_walk` and `Route.add` in one call.");
   module.def("localise", &localise, py::arg("route"), py::arg("walk"),
              "Finds a walk on a route: a Run. Keywords: settings.");
-  module.def("evaluate", &evaluate, py::arg("run"), py::kw_only(), py::arg("query_truth") = "",
-             py::arg("reference_truth") = "", py::arg("pairs") = "", py::arg("tolerance_m") = py::none(),
-             py::arg("tolerance_frames") = py::none(),
-             "Precision, recall and errors of a run against truth.csv of both walks, or pairs.csv; a dict "
-             "like metrics.json.");
   module.def("odometry", &odometry, py::arg("source"), py::kw_only(), py::arg("progress") = py::none(),
              "Steps, displacement and trajectory of a recording: an Odometry. Keywords: settings.");
 }

@@ -1,26 +1,15 @@
-"""The module on walks and matrices that the tests make: a wall of random blocks seen through a moving window."""
+"""The module on walks and matrices that the tests make."""
 
 import concurrent.futures
 import sys
 
 import numpy as np
 import pytest
+from drawn_walls import wall, write_walk
 
 import retrace
 
 RNG = np.random.default_rng(1)
-
-
-def wall(length=1200, height=48):
-    texture = np.full((height, length), 128.0)
-    for size in (48, 24, 12, 6):
-        blocks = RNG.uniform(-45, 45, (-(-height // size), -(-length // size)))
-        texture += np.kron(blocks, np.ones((size, size)))[:height, :length]
-    return np.clip(texture, 0, 255).astype(np.uint8)
-
-
-def views(texture, positions, width=96):
-    return [np.ascontiguousarray(texture[:, int(p):int(p) + width]) for p in positions]
 
 
 @pytest.fixture(scope="module")
@@ -29,12 +18,7 @@ def walks(tmp_path_factory):
     folder, texture = tmp_path_factory.mktemp("walks"), wall()
     found = {}
     for name, positions in (("day", np.arange(0, 900, 1.0)), ("night", np.arange(60, 840, 2.0))):
-        (folder / name).mkdir()
-        for i, picture in enumerate(views(texture, positions)):
-            (folder / name / f"{i}.pgm").write_bytes(b"P5 %d %d 255\n" % picture.shape[::-1] + picture.tobytes())
-        rows = [f"{i},{i / 30:.4f},0,{p / 100:.4f},0,{p / 100:.4f},0" for i, p in enumerate(positions)]
-        (folder / f"{name}.csv").write_text("frame,time_s,x_m,y_m,heading_deg,distance_m,steps\n" + "\n".join(rows) + "\n")
-        found[name] = (str(folder / name), str(folder / f"{name}.csv"), positions)
+        found[name] = (*write_walk(folder, name, texture, positions), positions)
     return folder, found
 
 

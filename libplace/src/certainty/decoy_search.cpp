@@ -20,7 +20,7 @@ SearchOptions reversed(SearchOptions options, std::size_t queries) {
   return options;
 }
 
-CostMatrix backwards_of(const CostMatrix& enhanced) {
+CostMatrix backwards_of(const CostView& enhanced) {
   CostMatrix backwards = make_cost_matrix(enhanced.queries, enhanced.references);
   for (std::size_t q = 0; q < enhanced.queries; ++q)
     std::ranges::copy(enhanced.row(enhanced.queries - 1 - q), backwards.row(q).begin());
@@ -36,16 +36,16 @@ std::vector<double> scores_of(const std::vector<SequenceMatch>& matches) {
 
 }  // namespace
 
-std::vector<double> decoy_scores(const CostMatrix& enhanced, const SearchMethod& method,
+std::vector<double> decoy_scores(const CostView& enhanced, const SearchMethod& method,
                                  const SearchOptions& options) {
   return scores_of(method.search(backwards_of(enhanced), reversed(options, enhanced.queries)).matches);
 }
 
 std::vector<double> decoy_scores_part(const MatrixPart& enhanced, const SearchMethod& method,
                                       const SearchOptions& options, Team& team) {
-  const CostMatrix backwards = backwards_of(*enhanced.costs);
+  const CostMatrix backwards = backwards_of(enhanced.costs);
   MatrixPart part = enhanced;
-  part.costs = &backwards;
+  part.costs = backwards;
   return scores_of(method.search_part(part, reversed(options, enhanced.queries()), team).matches);
 }
 

@@ -27,7 +27,7 @@ double spread_of(const MatrixPart& enhanced, std::size_t query, const SequenceMa
       // Outside the matrix nothing is known: use an average cost.
       if (q < 0 || q >= queries || r < 0 || r >= references) continue;
       sum += static_cast<double>(
-          enhanced.costs->at(static_cast<std::size_t>(q), static_cast<std::size_t>(r) - enhanced.first));
+          enhanced.costs.at(static_cast<std::size_t>(q), static_cast<std::size_t>(r) - enhanced.first));
     }
     places.push_back(static_cast<double>(d));
     sums.push_back(sum);
@@ -47,7 +47,7 @@ double spread_of(const MatrixPart& enhanced, std::size_t query, const SequenceMa
 
 }  // namespace
 
-std::vector<std::optional<double>> place_spread(const CostMatrix& enhanced,
+std::vector<std::optional<double>> place_spread(const CostView& enhanced,
                                                 std::span<const SequenceMatch> matches, int window) {
   Alone alone;
   return place_spread_part(whole_of(enhanced), matches, window, alone);

@@ -92,7 +92,7 @@ SureMatches with_certainty(const SearchResult& found, const SearchMethod& method
 
 }  // namespace
 
-SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
+SureMatches search_surely(const CostView& enhanced, const SearchMethod& method,
                           const SearchOptions& options) {
   const SearchResult found = method.search(enhanced, options);
   return with_certainty(

@@ -15,11 +15,11 @@ namespace {
 constexpr std::size_t kStretch = 1024;  // values added up before their sum is added: they stay in the cache
 constexpr std::size_t kTiles = 8;       // of rows on the left, for each reading of the panels
 
-using Interleave = void (*)(const FloatRows&, const kernels::RowBlock&, std::size_t, float*);
+using Interleave = void (*)(const FloatRowsView&, const kernels::RowBlock&, std::size_t, float*);
 
 /// One side of a product: the rows or the columns of a matrix.
 struct Side {
-  const FloatRows& matrix;
+  FloatRowsView matrix;
   bool columns;
 
   [[nodiscard]] std::size_t count() const { return columns ? matrix.width : matrix.size(); }

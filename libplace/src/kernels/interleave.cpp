@@ -4,7 +4,7 @@
 
 namespace place::kernels {
 
-void interleave(const FloatRows& rows, const RowBlock& block, std::size_t lanes, float* to) {
+void interleave(const FloatRowsView& rows, const RowBlock& block, std::size_t lanes, float* to) {
   constexpr std::size_t kTogether = 16;  // values of a row, a cache line, read before the next row
   for (std::size_t k = 0; k < block.values; k += kTogether) {
     const std::size_t past = std::min(k + kTogether, block.values);
@@ -16,7 +16,7 @@ void interleave(const FloatRows& rows, const RowBlock& block, std::size_t lanes,
   }
 }
 
-void interleave_columns(const FloatRows& matrix, const RowBlock& block, std::size_t lanes, float* to) {
+void interleave_columns(const FloatRowsView& matrix, const RowBlock& block, std::size_t lanes, float* to) {
   for (std::size_t k = 0; k < block.values; ++k, to += lanes) {
     const float* const values = matrix[block.from + k].data() + block.first;
     std::fill(std::copy_n(values, block.count, to), to + lanes, 0.0F);

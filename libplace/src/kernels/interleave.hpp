@@ -14,9 +14,9 @@ struct RowBlock {
 
 /// Writes the values of `block.count` rows side by side, value by value, in groups of `lanes`, which zeros
 /// fill: to[k * lanes + i] is value `from + k` of row `first + i`.
-void interleave(const FloatRows& rows, const RowBlock& block, std::size_t lanes, float* to);
+void interleave(const FloatRowsView& rows, const RowBlock& block, std::size_t lanes, float* to);
 
 /// The same of the columns of the matrix: to[k * lanes + i] is value `first + i` of row `from + k`.
-void interleave_columns(const FloatRows& matrix, const RowBlock& block, std::size_t lanes, float* to);
+void interleave_columns(const FloatRowsView& matrix, const RowBlock& block, std::size_t lanes, float* to);
 
 }  // namespace place::kernels

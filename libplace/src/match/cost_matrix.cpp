@@ -30,7 +30,7 @@ std::size_t band_queries(std::size_t query_bytes) {
 }
 
 /// Each image column after column, so that neighbouring columns of it are bytes in a row.
-vo::ImageStack turned(const vo::ImageStack& images) {
+vo::ImageStack turned(const vo::ImageStackView& images) {
   vo::ImageStack out = vo::make_image_stack(images.height, images.width, images.size());
   const auto width = static_cast<std::size_t>(images.width), height = static_cast<std::size_t>(images.height);
   vo::parallel_for(images.size(), [&](std::size_t i) {
@@ -44,7 +44,7 @@ vo::ImageStack turned(const vo::ImageStack& images) {
 }
 
 /// The mean sum of absolute differences between different images, among up to 64 evenly spaced ones.
-double mean_difference(const vo::ImageStack& images) {
+double mean_difference(const vo::ImageStackView& images) {
   constexpr std::size_t kSample = 64;
   const std::size_t count = std::min(kSample, images.size()), size = images.image_size();
   if (count < 2) return 0;
@@ -61,9 +61,9 @@ double mean_difference(const vo::ImageStack& images) {
 
 }  // namespace
 
-ThumbnailCosts::ThumbnailCosts(const vo::ImageStack& queries, const vo::ImageStack& references,
+ThumbnailCosts::ThumbnailCosts(const vo::ImageStackView& queries, const vo::ImageStackView& references,
                                const CostOptions& options)
-    : queries_(&queries), references_(&references) {
+    : queries_(queries), references_(references) {
   if (queries.width != references.width || queries.height != references.height) {
     throw std::invalid_argument("cost_matrix: query and reference descriptors differ in size");
   }
@@ -87,17 +87,16 @@ ThumbnailCosts::ThumbnailCosts(const vo::ImageStack& queries, const vo::ImageSta
 }
 
 float ThumbnailCosts::unit() const {
-  return 1.0F / (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(references_->image_size()));
+  return 1.0F / (static_cast<float>(vo::kStepsPerDeviation) * static_cast<float>(references_.image_size()));
 }
 
 void ThumbnailCosts::compute(const Costs& block) const {
   if (block.queries == 0 || block.references == 0) return;
-  const std::size_t pixels = references_->image_size(),
-                    height = static_cast<std::size_t>(references_->height);
+  const std::size_t pixels = references_.image_size(), height = static_cast<std::size_t>(references_.height);
   const kernels::AbsoluteDifferenceKernel kernel = kernels::absolute_difference();
   const float scale = unit();
-  const vo::ImageStack &queries = shifts_.empty() ? *queries_ : turned_queries_,
-                       &references = shifts_.empty() ? *references_ : turned_references_;
+  const vo::ImageStackView queries = shifts_.empty() ? queries_ : turned_queries_,
+                           references = shifts_.empty() ? references_ : turned_references_;
   const std::uint8_t* query_bytes = queries.pixels.data() + block.first_query * pixels;
   const std::uint8_t* reference_bytes = references.pixels.data() + block.first_reference * pixels;
   // Bands of similar size, a multiple of what kernels process together.
@@ -134,7 +133,7 @@ void ThumbnailCosts::compute(const Costs& block) const {
   });
 }
 
-CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
+CostMatrix cost_matrix(const vo::ImageStackView& queries, const vo::ImageStackView& references,
                        const CostOptions& options) {
   return cost_matrix(ThumbnailCosts(queries, references, options));
 }

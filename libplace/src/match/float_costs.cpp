@@ -20,7 +20,7 @@ constexpr std::size_t parts(std::size_t count, std::size_t size) {
 }
 
 /// The length of each row in the metric.
-std::vector<double> lengths_of(const FloatRows& rows, Metric metric) {
+std::vector<double> lengths_of(const FloatRowsView& rows, Metric metric) {
   std::vector<double> lengths(rows.size());
   vo::parallel_for(rows.size(), [&](std::size_t i) {
     double sum = 0, squares = 0;
@@ -43,7 +43,7 @@ double largest_of(const std::vector<double>& values) {
 
 }  // namespace
 
-FloatCosts::FloatCosts(const FloatRows& queries, const FloatRows& references, Metric metric)
+FloatCosts::FloatCosts(const FloatRowsView& queries, const FloatRowsView& references, Metric metric)
     : references_(references), metric_(metric), query_count_(queries.size()) {
   if (queries.width != references.width) {
     throw std::invalid_argument("FloatCosts: query and reference descriptors differ in size");

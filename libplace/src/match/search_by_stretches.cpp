@@ -5,7 +5,7 @@
 namespace place {
 namespace {
 
-CostMatrix part_of(const CostMatrix& whole, Stretch queries, Stretch references) {
+CostMatrix part_of(const CostView& whole, Stretch queries, Stretch references) {
   CostMatrix part = make_cost_matrix(queries.end - queries.begin, references.end - references.begin);
   for (std::size_t q = 0; q < part.queries; ++q)
     std::ranges::copy(whole.row(queries.begin + q).subspan(references.begin, part.references),
@@ -29,8 +29,8 @@ SequenceMatch join_stretches(const SequenceMatch& a, const SequenceMatch& b, std
 }
 
 std::vector<SequenceMatch> search_by_stretches(
-    const CostMatrix& enhanced, const SequenceSearchOptions& options, const WalkGaps& gaps,
-    const std::function<std::vector<SequenceMatch>(const CostMatrix&)>& search) {
+    const CostView& enhanced, const SequenceSearchOptions& options, const WalkGaps& gaps,
+    const std::function<std::vector<SequenceMatch>(const CostView&)>& search) {
   const std::vector<Stretch> queries = stretches_between(gaps.query, enhanced.queries);
   const std::vector<Stretch> references = stretches_between(gaps.reference, enhanced.references);
   if (queries.size() <= 1 && references.size() <= 1) return search(enhanced);

@@ -15,8 +15,8 @@ namespace place {
 /// others' best matches compete with it if they lie outside its uniqueness window, otherwise what those were
 /// held against. Without gaps, calls `search` directly.
 std::vector<SequenceMatch> search_by_stretches(
-    const CostMatrix& enhanced, const SequenceSearchOptions& options, const WalkGaps& gaps,
-    const std::function<std::vector<SequenceMatch>(const CostMatrix&)>& search);
+    const CostView& enhanced, const SequenceSearchOptions& options, const WalkGaps& gaps,
+    const std::function<std::vector<SequenceMatch>(const CostView&)>& search);
 
 /// Joins the matches of two stretches of the reference for a query. A match's score is the difference to the
 /// cost elsewhere; `window`: `SequenceSearchOptions::uniqueness_window`.

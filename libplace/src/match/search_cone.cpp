@@ -78,7 +78,7 @@ SequenceMatch match_of(const ConeShape& shape, const std::vector<Votes>& runs, s
 
 }  // namespace
 
-std::vector<SequenceMatch> search_cone(const CostMatrix& enhanced, const SequenceSearchOptions& options) {
+std::vector<SequenceMatch> search_cone(const CostView& enhanced, const SequenceSearchOptions& options) {
   const ConeShape shape(options, enhanced.queries, enhanced.references);
   std::vector<RowMinimum> best(enhanced.queries);
   vo::parallel_for(enhanced.queries, [&](std::size_t q) { best[q] = row_minimum(enhanced.row(q)); });

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <vo/base/stopping.hpp>
+
 namespace place {
 namespace {
 
@@ -37,7 +39,7 @@ struct Entry {
 /// The search over one stretch of the query.
 class LazySearch {
  public:
-  LazySearch(const CostMatrix& enhanced, const SearchOptions& options, Stretch queries,
+  LazySearch(const CostView& enhanced, const SearchOptions& options, Stretch queries,
              const std::vector<Stretch>& references)
       : enhanced_(enhanced),
         settings_(options.graph),
@@ -130,6 +132,7 @@ class LazySearch {
 
   /// Takes the cheapest node from the frontier; false if it is not worth expanding.
   bool expand_next() {
+    vo::stop_if_asked();
     const Entry node = frontier_.top();
     frontier_.pop();
     if (reached_[node.query - queries_.begin].at(node.reference).path_cost < node.path_cost) return false;
@@ -161,7 +164,7 @@ class LazySearch {
     return hidden == kNodes;
   }
 
-  const CostMatrix& enhanced_;
+  CostView enhanced_;
   const GraphSearchOptions& settings_;
   Stretch queries_;
   std::vector<std::unordered_map<std::size_t, Reached>> reached_;  // by query
@@ -175,7 +178,7 @@ class LazySearch {
 };
 
 /// Matches along a path over the queries from `begin` on.
-void match_path(const CostMatrix& enhanced, const SearchOptions& options, std::size_t begin,
+void match_path(const CostView& enhanced, const SearchOptions& options, std::size_t begin,
                 const std::vector<std::size_t>& path, std::vector<SequenceMatch>& matches) {
   const double hidden = options.graph.hidden_cost;
   const int length = options.sequence.length;
@@ -217,7 +220,7 @@ bool GraphSearchOptions::is_valid(std::string* reason) const {
   return true;
 }
 
-SearchResult search_graph(const CostMatrix& enhanced, const SearchOptions& options) {
+SearchResult search_graph(const CostView& enhanced, const SearchOptions& options) {
   std::string reason;
   if (!options.graph.is_valid(&reason) || !options.sequence.is_valid(&reason))
     throw std::invalid_argument("search_graph: " + reason);

@@ -66,7 +66,7 @@ class SlidingMinima {
 /// The costs of every pair of some successive queries.
 class HybridBlock {
  public:
-  HybridBlock(const CostMatrix& enhanced, const ConeShape& shape, std::size_t begin, std::size_t count)
+  HybridBlock(const CostView& enhanced, const ConeShape& shape, std::size_t begin, std::size_t count)
       : enhanced_(enhanced),
         shape_(shape),
         begin_(begin),
@@ -131,7 +131,7 @@ class HybridBlock {
   }
 
  private:
-  const CostMatrix& enhanced_;
+  CostView enhanced_;
   const ConeShape& shape_;
   std::size_t begin_, count_;
   std::vector<float> sums_;
@@ -139,7 +139,7 @@ class HybridBlock {
 
 }  // namespace
 
-std::vector<SequenceMatch> search_hybrid(const CostMatrix& enhanced, const SequenceSearchOptions& options) {
+std::vector<SequenceMatch> search_hybrid(const CostView& enhanced, const SequenceSearchOptions& options) {
   const ConeShape shape(options, enhanced.queries, enhanced.references);
   // Sums run over whole rows in the order of the queries, so the result does not depend on the blocks.
   constexpr std::size_t kBytes = 1U << 20U, kFewest = 8, kMost = 64;

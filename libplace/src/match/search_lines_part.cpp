@@ -148,11 +148,11 @@ std::vector<SequenceMatch> search_pair(const MatrixPart& part, const Stretch& qu
                                             .before_tail = kUnreached});
   if (own.size() > 0) {
     const std::size_t first = std::max(part.first, references.begin),
-                      past = std::min(part.first + part.costs->references, references.end);
+                      past = std::min(part.first + part.costs.references, references.end);
     const float* const values =
-        part.costs->values.data() + queries.begin * part.costs->references + (first - part.first);
+        part.costs.values.data() + queries.begin * part.costs.references + (first - part.first);
     found = searcher.search_shard(
-        {0, count, first - references.begin, past - first, values, part.costs->references}, own);
+        {0, count, first - references.begin, past - first, values, part.costs.references}, own);
   }
   std::vector<SequenceMatch> matches;
   if (team.size() == 1) {

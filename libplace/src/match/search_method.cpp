@@ -20,12 +20,12 @@ namespace {
 
 /// A search that does not handle gaps, over the stretches between them.
 template <auto kSearch>
-SearchResult by_stretches(const CostMatrix& enhanced, const SearchOptions& options) {
-  const auto search = [&](const CostMatrix& part) { return kSearch(part, options.sequence); };
+SearchResult by_stretches(const CostView& enhanced, const SearchOptions& options) {
+  const auto search = [&](const CostView& part) { return kSearch(part, options.sequence); };
   return {.matches = search_by_stretches(enhanced, options.sequence, options.gaps, search)};
 }
 
-SearchResult search_straight_lines(const CostMatrix& enhanced, const SearchOptions& options) {
+SearchResult search_straight_lines(const CostView& enhanced, const SearchOptions& options) {
   Alone alone;
   return search_lines_part(whole_of(enhanced), options, alone);
 }

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <vo/base/parallel.hpp>
+#include <vo/base/stopping.hpp>
 
 namespace place {
 namespace {
@@ -192,6 +193,7 @@ void search_stretch(const MatrixPart& enhanced, const SearchOptions& options, co
   for (std::size_t i = 0; i < count; ++i) {
     if (i % block == 0) kept.push_back(row);
     if ((i / block + 1) * block >= count) break;  // the last block is made below
+    vo::stop_if_asked();
     likelihoods_at(i, row_likelihoods);
     step(i, row, row_likelihoods, next);
     std::swap(row, next);
@@ -206,10 +208,12 @@ void search_stretch(const MatrixPart& enhanced, const SearchOptions& options, co
   for (std::size_t b = kept.size(); b-- > 0;) {
     const std::size_t begin = b * block, end = std::min(count, begin + block);
     for (std::size_t i = begin; i < end; ++i) {
+      vo::stop_if_asked();
       likelihoods_at(i, likelihoods[i - begin]);
       step(i, i == begin ? kept[b] : rows[i - begin - 1], likelihoods[i - begin], rows[i - begin]);
     }
     for (std::size_t i = end; i-- > begin;) {
+      vo::stop_if_asked();
       posterior.set(rows[i - begin], backward);
       const std::size_t query = queries.begin + i;
       const std::optional<std::size_t> at = given.empty() ? std::nullopt : given[query].reference;
@@ -266,7 +270,7 @@ std::vector<SequenceMatch> matches_on_path(const MatrixPart& enhanced, std::span
 
 }  // namespace
 
-SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options) {
+SearchResult search_path(const CostView& enhanced, const SearchOptions& options) {
   Alone alone;
   return search_path_part(whole_of(enhanced), options, alone);
 }
@@ -275,7 +279,7 @@ SearchResult search_path_part(const MatrixPart& enhanced, const SearchOptions& o
   return {.matches = matches_on_path(enhanced, {}, options, team)};
 }
 
-std::vector<SequenceMatch> path_scores(const CostMatrix& enhanced, std::span<const SequenceMatch> matches,
+std::vector<SequenceMatch> path_scores(const CostView& enhanced, std::span<const SequenceMatch> matches,
                                        const SearchOptions& options) {
   Alone alone;
   return path_scores_part(whole_of(enhanced), matches, options, alone);

@@ -4,8 +4,7 @@
 
 namespace place {
 
-std::vector<SequenceMatch> search_sequences(const CostMatrix& enhanced,
-                                            const SequenceSearchOptions& options) {
+std::vector<SequenceMatch> search_sequences(const CostView& enhanced, const SequenceSearchOptions& options) {
   // Enhanced costs are centred at 0 up to rounding; costs that are not enhanced are centred here.
   SequenceSearcher searcher(enhanced.queries, enhanced.references, range_of(enhanced.values), options);
   searcher.push(block_of(enhanced), enhanced.references);

@@ -16,6 +16,8 @@
 #include <numeric>
 #include <utility>
 
+#include <vo/base/error.hpp>
+
 namespace place {
 namespace {
 
@@ -230,7 +232,7 @@ SureMatches StoredShard::search(const ShardRequest& request) {
     if (enhancement.method == Enhancement::kNone) standardise_as_a_whole(enhanced);
     return search_surely(enhanced, method, request.search);
   }
-  return search_surely_part({&enhanced, first, mine, total}, method, request.search, team_);
+  return search_surely_part({enhanced, first, mine, total}, method, request.search, team_);
 }
 
 }  // namespace place

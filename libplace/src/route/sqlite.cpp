@@ -11,6 +11,7 @@
 #include <sqlite3.h>
 
 #include <vo/base/error.hpp>
+#include <vo/base/stopping.hpp>
 
 namespace place::sqlite {
 namespace {
@@ -86,6 +87,7 @@ Statement& Statement::bind(std::span<const std::uint8_t> value) {
 }
 
 bool Statement::step() {
+  vo::stop_if_asked();
   const int code = sqlite3_step(statement_.get());
   check(code);
   next_column_ = 0;

@@ -1,7 +1,10 @@
 #include "vo/base/parallel.hpp"
 
+#include "vo/base/stopping.hpp"
+
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -52,7 +55,8 @@ struct Loop {
   std::size_t count;
   std::size_t chunk;  ///< indices that a thread takes at a time
   const std::function<void(std::size_t)>& body;
-  Loop* outer;  ///< within whose body it was called; null for the outermost
+  Loop* outer;                               ///< within whose body it was called; null for the outermost
+  Stopping* stopping = Stopping::current();  ///< of the thread that called, and so of all that help it
 
   std::atomic<std::size_t> next{0};  ///< the first index that nobody has taken
   FirstFailure failure{};
@@ -76,14 +80,18 @@ thread_local Loop* the_loop = nullptr;  ///< whose body this thread is in
 
 /// Calls the body for indices that nobody has taken until there are none.
 void work_on(Loop& loop) {
-  Loop* const outer = the_loop;
-  the_loop = &loop;
+  Loop* const outer = std::exchange(the_loop, &loop);
+  Stopping* const before = Stopping::exchange_current(loop.stopping);
   for (;;) {
     const std::size_t begin = loop.next.fetch_add(loop.chunk, std::memory_order_relaxed);
     if (begin >= loop.count) break;
     for (std::size_t i = begin; i < std::min(loop.count, begin + loop.chunk); ++i)
-      loop.failure.guard(i, [&] { loop.body(i); });
+      loop.failure.guard(i, [&] {
+        stop_if_asked();
+        loop.body(i);
+      });
   }
+  Stopping::exchange_current(before);
   the_loop = outer;
 }
 
@@ -111,7 +119,7 @@ class Team {
         help(*inner, lock);
       } else {
         loop.caller_sleeps = true;
-        loop.changed.wait(lock, [&] { return !loop.caller_sleeps; });
+        sleep_until_woken(loop, lock);
       }
     }
     std::erase(open_, &loop);
@@ -153,6 +161,18 @@ class Team {
     work_on(loop);
     lock.lock();
     if (--loop.helpers == 0) wake_caller(loop);
+  }
+
+  /// Where the caller is the one that is asked whether to stop, it goes on asking; those it waits for stop.
+  static void sleep_until_woken(Loop& loop, std::unique_lock<std::mutex>& lock) {
+    const auto woken = [&] { return !loop.caller_sleeps; };
+    if (loop.stopping == nullptr || !loop.stopping->is_of_this_thread())
+      return loop.changed.wait(lock, woken);
+    while (!loop.changed.wait_until(lock, std::chrono::system_clock::now() + Stopping::kInterval, woken)) {
+      lock.unlock();
+      loop.stopping->poll();
+      lock.lock();
+    }
   }
 
   static void wake_caller(Loop& loop) {

@@ -13,7 +13,7 @@ namespace place {
 ///
 /// `enhanced`, `options` as for the search itself; gaps and steps are reversed with the walk. Returns the
 /// scores of the matched queries. Cost: that of the search, and 4 bytes per pair.
-std::vector<double> decoy_scores(const CostMatrix& enhanced, const SearchMethod& method,
+std::vector<double> decoy_scores(const CostView& enhanced, const SearchMethod& method,
                                  const SearchOptions& options);
 
 }  // namespace place

@@ -21,7 +21,7 @@ namespace place {
 ///
 /// `matches`: of a search over `enhanced`, one for each query; otherwise throws `std::invalid_argument`.
 /// O(matches * window).
-std::vector<std::optional<double>> place_spread(const CostMatrix& enhanced,
+std::vector<std::optional<double>> place_spread(const CostView& enhanced,
                                                 std::span<const SequenceMatch> matches, int window = 10);
 
 }  // namespace place

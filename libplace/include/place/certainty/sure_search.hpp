@@ -48,7 +48,6 @@ struct SureMatches {
 /// A walk with fewer than kFewestScores matches, or whose reverse has fewer, has only the search's own
 /// probabilities, if it gives any (`SearchMethod::scores_are_log_odds`). Cost: two searches; for a search
 /// other than `path`, two path searches more.
-SureMatches search_surely(const CostMatrix& enhanced, const SearchMethod& method,
-                          const SearchOptions& options);
+SureMatches search_surely(const CostView& enhanced, const SearchMethod& method, const SearchOptions& options);
 
 }  // namespace place

@@ -34,11 +34,11 @@ class ThumbnailCosts final : public CostSource {
   /// The stacks are bytes of `vo::patch_normalise`, of the same width and height, and must outlive this.
   /// Throws `std::invalid_argument` if the sizes differ or the shift leaves no column. With a shift, keeps a
   /// copy of both.
-  ThumbnailCosts(const vo::ImageStack& queries, const vo::ImageStack& references,
+  ThumbnailCosts(const vo::ImageStackView& queries, const vo::ImageStackView& references,
                  const CostOptions& options = {});
 
-  [[nodiscard]] std::size_t queries() const override { return queries_->size(); }
-  [[nodiscard]] std::size_t references() const override { return references_->size(); }
+  [[nodiscard]] std::size_t queries() const override { return queries_.size(); }
+  [[nodiscard]] std::size_t references() const override { return references_.size(); }
   [[nodiscard]] float unit() const override;
   /// O(queries * references * pixels * (2 * shift + 1)).
   void compute(const Costs& block) const override;
@@ -50,14 +50,13 @@ class ThumbnailCosts final : public CostSource {
     float factor, term;
   };
 
-  const vo::ImageStack* queries_;
-  const vo::ImageStack* references_;
+  vo::ImageStackView queries_, references_;
   vo::ImageStack turned_queries_, turned_references_;  ///< column after column; only with shifts
   std::vector<Shift> shifts_;
 };
 
 /// The whole matrix of `ThumbnailCosts`.
-CostMatrix cost_matrix(const vo::ImageStack& queries, const vo::ImageStack& references,
+CostMatrix cost_matrix(const vo::ImageStackView& queries, const vo::ImageStackView& references,
                        const CostOptions& options = {});
 
 }  // namespace place

@@ -6,6 +6,20 @@
 
 namespace place {
 
+/// A matrix that is only looked at, where it is: a `CostMatrix`, or other memory of that form.
+struct CostView {
+  std::size_t queries = 0;
+  std::size_t references = 0;
+  std::span<const float> values;  ///< row after row
+
+  [[nodiscard]] std::span<const float> row(std::size_t query) const {
+    return values.subspan(query * references, references);
+  }
+  [[nodiscard]] float at(std::size_t query, std::size_t reference) const {
+    return values[query * references + reference];
+  }
+};
+
 /// A value for every (query, reference) pair of keyframes. One row per query; the reference index runs along
 /// the row, contiguous in memory. Lower means more alike.
 struct CostMatrix {
@@ -22,6 +36,7 @@ struct CostMatrix {
   [[nodiscard]] float at(std::size_t query, std::size_t reference) const {
     return values[query * references + reference];
   }
+  operator CostView() const { return {queries, references, values}; }
 };
 
 /// A block of a matrix in any storage: queries from `first_query` on by references from `first_reference` on,
@@ -50,7 +65,7 @@ using ConstCosts = CostBlock<const float>;
 inline Costs block_of(CostMatrix& matrix) {
   return {0, matrix.queries, 0, matrix.references, matrix.values.data(), matrix.references};
 }
-inline ConstCosts block_of(const CostMatrix& matrix) {
+inline ConstCosts block_of(const CostView& matrix) {
   return {0, matrix.queries, 0, matrix.references, matrix.values.data(), matrix.references};
 }
 

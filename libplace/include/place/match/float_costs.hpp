@@ -18,9 +18,9 @@ namespace place {
 /// of these rows, by the triangle inequality, 2^14 to 2^15 units.
 class FloatCosts final : public CostSource {
  public:
-  /// Rows of one width, finite, kept by reference. Throws `std::invalid_argument` if widths differ, a value
-  /// is not finite, or a row's sum of squares overflows a float.
-  FloatCosts(const FloatRows& queries, const FloatRows& references, Metric metric);
+  /// Rows of one width, finite; those of the references must outlive this. Throws `std::invalid_argument` if
+  /// widths differ, a value is not finite, or a row's sum of squares overflows a float.
+  FloatCosts(const FloatRowsView& queries, const FloatRowsView& references, Metric metric);
 
   [[nodiscard]] std::size_t queries() const override { return query_count_; }
   [[nodiscard]] std::size_t references() const override { return references_.size(); }
@@ -31,7 +31,7 @@ class FloatCosts final : public CostSource {
  private:
   void compute_panel(const Costs& block, std::size_t first, std::size_t count) const;
 
-  const FloatRows& references_;
+  FloatRowsView references_;
   Metric metric_;
   std::size_t query_count_;
   float units_;

@@ -21,6 +21,6 @@ namespace place {
 ///
 /// Throws `std::invalid_argument` for options that are not valid. O(queries * (references + length * sum of
 /// the cone's widths)), in parallel.
-std::vector<SequenceMatch> search_cone(const CostMatrix& enhanced, const SequenceSearchOptions& options = {});
+std::vector<SequenceMatch> search_cone(const CostView& enhanced, const SequenceSearchOptions& options = {});
 
 }  // namespace place

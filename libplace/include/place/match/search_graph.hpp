@@ -4,7 +4,7 @@
 
 namespace place {
 
-struct CostMatrix;
+struct CostView;
 struct SearchOptions;
 struct SearchResult;
 
@@ -39,6 +39,6 @@ struct GraphSearchOptions {
 /// the sum over the sequence of hidden_cost - cost, hidden nodes 0, over sqrt(terms * length), in deviations.
 /// One thread, as the order of expansion is the method. O(n log n) for n nodes reached, under 100 bytes for
 /// each. Throws `std::invalid_argument` for options that are not valid.
-SearchResult search_graph(const CostMatrix& enhanced, const SearchOptions& options);
+SearchResult search_graph(const CostView& enhanced, const SearchOptions& options);
 
 }  // namespace place

@@ -17,7 +17,6 @@ namespace place {
 /// the same as there. Throws `std::invalid_argument` for options that are not valid. O(queries * references *
 /// (length + log of the cone's widths)), in parallel over blocks of queries; a block's costs take up to 1 MB
 /// per thread, or 32 bytes for each reference if that is more.
-std::vector<SequenceMatch> search_hybrid(const CostMatrix& enhanced,
-                                         const SequenceSearchOptions& options = {});
+std::vector<SequenceMatch> search_hybrid(const CostView& enhanced, const SequenceSearchOptions& options = {});
 
 }  // namespace place

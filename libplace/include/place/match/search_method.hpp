@@ -25,7 +25,7 @@ struct SearchMethod {
   /// `enhanced`: queries by references, lower is more alike, in standard deviations. Sequences cross no gap
   /// of `options.gaps`. The same bytes for any number of threads. Throws `std::invalid_argument` for options
   /// that are not valid.
-  SearchResult (*search)(const CostMatrix& enhanced, const SearchOptions& options);
+  SearchResult (*search)(const CostView& enhanced, const SearchOptions& options);
   /// Hardly any right match scores below this quantile of wrong matches' scores (`MatchProbabilityOptions`).
   double decoy_quantile = 0.5;
   bool scores_are_log_odds = false;  ///< a score is log(p / (1 - p)) of the method's own probability p

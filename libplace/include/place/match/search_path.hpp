@@ -6,7 +6,7 @@
 
 namespace place {
 
-struct CostMatrix;
+struct CostView;
 struct SearchOptions;
 struct SearchResult;
 struct SequenceMatch;
@@ -45,12 +45,12 @@ struct PathSearchOptions {
 /// O(queries * references * probable steps); one thread for each stretch of the query. Memory: 12 bytes *
 /// references * sqrt(queries). Throws `std::invalid_argument` for options that are not valid or unless there
 /// is one step for each query.
-SearchResult search_path(const CostMatrix& enhanced, const SearchOptions& options);
+SearchResult search_path(const CostView& enhanced, const SearchOptions& options);
 
 /// How probable the path finds places that another search matched: the same matches with the score that
 /// `search_path` would give their places, none where there is no match. Cost and errors as for it; throws
 /// `std::invalid_argument` also unless there is one match on the reference for each query.
-std::vector<SequenceMatch> path_scores(const CostMatrix& enhanced, std::span<const SequenceMatch> matches,
+std::vector<SequenceMatch> path_scores(const CostView& enhanced, std::span<const SequenceMatch> matches,
                                        const SearchOptions& options);
 
 }  // namespace place

@@ -27,7 +27,7 @@ struct SequenceMatch {
 /// line outside the uniqueness window, or without one (a very short reference) to 0, the cost of an average
 /// line. Throws `std::invalid_argument` for options that are not valid. Rounding, time and memory are those
 /// of `SequenceSearcher`.
-std::vector<SequenceMatch> search_sequences(const CostMatrix& enhanced,
+std::vector<SequenceMatch> search_sequences(const CostView& enhanced,
                                             const SequenceSearchOptions& options = {});
 
 /// Turns scores that are differences into SeqSLAM's uniqueness: 1 - a / b of the mean costs a of the best

@@ -23,6 +23,21 @@ struct CacheAligned {
   bool operator==(const CacheAligned&) const { return true; }
 };
 
+/// Images that are only looked at, where they are: an `ImageStack`, or other memory of that form.
+struct ImageStackView {
+  int width = 0;
+  int height = 0;
+  std::span<const std::uint8_t> pixels;
+
+  [[nodiscard]] std::size_t image_size() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+  [[nodiscard]] std::size_t size() const { return image_size() == 0 ? 0 : pixels.size() / image_size(); }
+  [[nodiscard]] std::span<const std::uint8_t> operator[](std::size_t i) const {
+    return pixels.subspan(i * image_size(), image_size());
+  }
+};
+
 /// Small grey images of one size, one after another in memory, each row-major: the thumbnails of a walk, or
 /// the descriptors made of them.
 struct ImageStack {
@@ -41,6 +56,7 @@ struct ImageStack {
   [[nodiscard]] std::span<std::uint8_t> operator[](std::size_t i) {
     return std::span(pixels).subspan(i * image_size(), image_size());
   }
+  operator ImageStackView() const { return {width, height, pixels}; }
 };
 
 /// An empty stack with room for `count` images of the given size, all zero.

@@ -17,7 +17,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 /// Passes the scores of the first column through, so that what a search is given can be seen.
-place::SearchResult first_costs(const place::CostMatrix& enhanced, const place::SearchOptions& options) {
+place::SearchResult first_costs(const place::CostView& enhanced, const place::SearchOptions& options) {
   place::SearchResult result;
   for (std::size_t q = 0; q < enhanced.queries; ++q) {
     const auto steps = options.path.steps.empty() ? 0.0F : static_cast<float>(options.path.steps[q]);

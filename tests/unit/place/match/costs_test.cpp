@@ -36,6 +36,19 @@ TEST(CostMatrix, HoldsAllOfASource) {
   EXPECT_EQ(matrix.at(2, 1), 2.25F);
 }
 
+TEST(CostView, LooksAtMemoryWhereItIs) {
+  std::vector<float> values{1, 2, 3, 4, 5, 6};
+  const place::CostView view{2, 3, values};
+  values[4] = 7;
+  EXPECT_EQ(view.at(1, 1), 7);
+  EXPECT_THAT(view.row(1), ElementsAre(4, 7, 6));
+  place::CostMatrix matrix = cost_matrix(Sums{});
+  const place::CostView of_matrix = matrix;
+  matrix.row(2)[0] = 9;
+  EXPECT_THAT(of_matrix.row(2), ElementsAre(9, 2.25F));
+  EXPECT_EQ(block_of(view).values, values.data());
+}
+
 TEST(CostBlock, GivesColumnsOfItself) {
   place::CostMatrix matrix = cost_matrix(Sums{});
   const place::Costs last = block_of(matrix).columns(1, 1);

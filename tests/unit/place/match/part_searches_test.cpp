@@ -43,7 +43,7 @@ OwnPart part_of(const CostMatrix& whole, const place::Team& team, std::size_t ma
 }
 
 MatrixPart matrix_of(const OwnPart& part, std::size_t references) {
-  return {&part.costs, part.first, part.own, references};
+  return {part.costs, part.first, part.own, references};
 }
 
 /// Real-valued costs with a walk that crosses the borders of several shards.

@@ -18,7 +18,7 @@ using testing::IsEmpty;
 
 auto lines(const SequenceSearchOptions& options) {
   // Costs are compared over stretches, so all are centred on the same mean.
-  return [=](const place::CostMatrix& part) {
+  return [=](const place::CostView& part) {
     place::SequenceSearcher searcher(part.queries, part.references, {.centre = 0, .largest = 4}, options);
     searcher.push(place::block_of(part), part.references);
     return searcher.finish();
