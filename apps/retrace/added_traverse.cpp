@@ -2,6 +2,8 @@
 
 #include "json_file.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -28,9 +30,8 @@ void print_added(const std::string& path, const place::Route& route, const place
   }
   fmt::print("{}: traverse '{}': {} frames, {:.1f} s, {} keyframes", path, traverse.name, traverse.frames,
              traverse.duration_s, traverse.keyframes.size());
-  const auto& last = traverse.keyframes.back();
-  if (last.distance_m)
-    fmt::print(", {:.1f} m surveyed", *last.distance_m - traverse.keyframes.front().distance_m.value_or(0));
+  if (const std::optional<double> length_m = place::surveyed_m(traverse))
+    fmt::print(", {:.1f} m surveyed", *length_m);
   fmt::print("; {} traverse{} in all\n", route.traverses.size(), route.traverses.size() == 1 ? "" : "s");
   if (added.gait_share)
     fmt::print("motion: {}, as {:.0f} % of the walk's motion is gait\n",

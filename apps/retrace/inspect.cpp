@@ -32,6 +32,7 @@ std::function<void()> declare_inspect(Arguments& arguments) {
       fmt::print("{}\n", json_text(route_json(options->route, route), 2));
     } else {
       print_route(options->route, route);
+      if (!options->folder.empty()) fmt::print("\nwritten into {}\n", options->folder);
     }
   };
 }

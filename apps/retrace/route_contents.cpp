@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -110,8 +111,8 @@ void print_route(const std::string& path, const place::Route& route) {
     if (surveyed > 0) {
       fmt::print("  {} poses from {}", surveyed,
                  traverse.surveyed ? traverse.pose_source : "its own odometry, not surveyed");
-      const auto &first = traverse.keyframes.front().distance_m, &last = traverse.keyframes.back().distance_m;
-      if (first && last) fmt::print(", {:.2f} m", *last - *first);
+      if (const std::optional<double> length_m = place::surveyed_m(traverse))
+        fmt::print(", {:.2f} m", *length_m);
       fmt::print("\n");
     } else {
       fmt::print("  no poses\n");

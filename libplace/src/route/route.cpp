@@ -19,6 +19,16 @@ std::vector<std::size_t> gaps_of(const Traverse& traverse) {
   return gaps;
 }
 
+std::optional<double> surveyed_m(const Traverse& traverse) {
+  std::optional<double> first, length_m;
+  for (const Keyframe& keyframe : traverse.keyframes) {
+    if (!keyframe.distance_m) continue;
+    if (first) length_m = *keyframe.distance_m - *first;
+    if (!first) first = keyframe.distance_m;
+  }
+  return length_m;
+}
+
 bool has_view_points(const Route& route) {
   return std::ranges::any_of(route.traverses,
                              [](const Traverse& traverse) { return !traverse.view_points.empty(); });

@@ -218,6 +218,8 @@ Traverse read_traverse(const fs::path& folder, const CsvTable& table, std::size_
 Route read_route_folder(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw vo::Error(folder.string(), "is no folder", "one written by `retrace inspect --export`");
+  if (!fs::exists(folder / "route.csv"))
+    throw vo::Error(folder.string(), "holds no route.csv", "a folder written by `retrace inspect --export`");
   Route route;
   read_values(folder, route);
   route.software_version = kVersion;

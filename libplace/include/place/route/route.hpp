@@ -78,6 +78,10 @@ const vo::ImageStack* thumbnails_of(const Traverse& traverse);
 /// The keyframes of a traverse before which its recording was interrupted: no sequence crosses one.
 std::vector<std::size_t> gaps_of(const Traverse& traverse);
 
+/// The distance walked between the first and the last of a traverse's surveyed keyframes; none if fewer than
+/// two are surveyed. A track may begin late or end early.
+std::optional<double> surveyed_m(const Traverse& traverse);
+
 /// True if any traverse has SURF points to check a query against.
 bool has_view_points(const Route& route);
 

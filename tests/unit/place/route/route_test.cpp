@@ -31,6 +31,17 @@ TEST(Route, KnowsWhereATraverseWasInterrupted) {
   EXPECT_EQ(place::gaps_of(traverse), (std::vector<std::size_t>{1, 3}));
 }
 
+TEST(Route, KnowsHowFarATraverseWasSurveyed) {
+  place::Traverse traverse;
+  EXPECT_EQ(place::surveyed_m(traverse), std::nullopt);
+  traverse.keyframes.resize(5);
+  traverse.keyframes[1].distance_m = 2;
+  EXPECT_EQ(place::surveyed_m(traverse), std::nullopt);
+  traverse.keyframes[2].distance_m = 3;
+  traverse.keyframes[3].distance_m = 7;
+  EXPECT_EQ(place::surveyed_m(traverse), 5);
+}
+
 TEST(Route, FindsThumbnailsWhereverTheyAre) {
   place::Traverse traverse = route_of_two_keyframes().traverses.front();
   EXPECT_EQ(place::thumbnails_of(traverse), nullptr);
