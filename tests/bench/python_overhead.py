@@ -4,7 +4,7 @@
     PYTHONPATH=build/release/python /usr/bin/python3 tests/bench/python_overhead.py [METHOD]
 
 Both are run in turn, five times; printed are the least processor times, and the share by which Python's is longer, for costs
-that a call of retrace gave and for an array of numpy, which is copied.
+that a call of retrace gave and for an array of numpy, which is read where it is.
 """
 
 import json
