@@ -50,8 +50,13 @@ TEST_P(StoppingWork, EndsLoopsWithinLoops) {
 TEST_P(StoppingWork, AsksWhileTheCallerWaits) {
   const vo::Stopping stopping([] { return true; });
   const auto caller = std::this_thread::get_id();
+  std::atomic<bool> helped = false;
   const auto body = [&](std::size_t) {
-    if (GetParam() > 1 && std::this_thread::get_id() == caller) return;
+    if (GetParam() > 1 && std::this_thread::get_id() == caller) {
+      while (!helped) std::this_thread::sleep_for(1ms);  // it would else take the other index too
+      return;
+    }
+    helped = true;
     for (;;) {
       vo::stop_if_asked();
       std::this_thread::sleep_for(1ms);
