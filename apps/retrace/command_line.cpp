@@ -193,7 +193,7 @@ int run(int argc, char** argv) {
 }
 
 constexpr const char* kOutOfMemory =
-    "retrace: out of memory; fewer frames or a smaller thumbnail-width expected\n";
+    "retrace: out of memory; expected a shorter walk, or --memory for a search of a long route\n";
 
 int run_or_say_why(int argc, char** argv) {
   try {

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """A walk of many hours through `build`, and another along the same way through `localise`.
 
-    RETRACE=build/release/bin/retrace /usr/bin/python3 tests/endurance/long_walk.py [--hours 10]
+    RETRACE=build/release/bin/retrace /usr/bin/python3 tests/endurance/long_walk.py [--hours 10] [--memory 14G]
 
 A camera of 96x48 at 25 frames/s looks at a wall as it walks along it, by day; the second walk is darker and 1.25 times as fast.
-Printed: time and resident memory of both commands and of an hour of walk, and matches that are right to half a picture's width.
-Fails, with exit 1, if fewer than 95 % of the accepted matches are right, or fewer than half of the keyframes are accepted.
-Needs numpy and ffmpeg, and some hundred MB of disk for ten hours.
+Printed: time and resident memory of both commands, that for an hour of walk (with what any walk takes), and matches that are right to
+half a picture's width. Fails, with exit 1, if fewer than 95 % of the accepted matches are right, or fewer than half of the keyframes are
+accepted. Needs numpy, ffmpeg, and some hundred MB of disk for ten hours.
 """
 
 import argparse
@@ -56,6 +56,7 @@ def draw(path, seen, at, gain):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--hours", type=float, default=10)
+    parser.add_argument("--memory", default="14G", help="of `localise`")
     options = parser.parse_args()
     frames = int(3600 * RATE_HZ * options.hours)
     first_at = places(frames, SPEED_PX)
@@ -74,7 +75,7 @@ def main():
 
         seconds, memory, said = measured("build", first, "-o", folder / "route.db")
         row("build", frames, said.split(" keyframes")[0].split()[-1], seconds, memory)
-        seconds, memory, _ = measured("localise", second, "--route", folder / "route.db", "-o", folder / "run")
+        seconds, memory, _ = measured("localise", second, "--route", folder / "route.db", "-o", folder / "run", "--memory", options.memory)
         matches = rows(folder / "run/matches.csv")
         row("localise", len(second_at), len(matches), seconds, memory)
     accepted = [match for match in matches if match["accepted"] == "1"]
