@@ -28,10 +28,10 @@ BLOCK = 4096  # keyframes drawn at a time
 WALKED = ("time_s", "displacement", "distance_m")
 
 
-def unlike(real, count, rng):
+def unlike(real, count, noise, rng):
     """Descriptors of `count` places that nobody has seen."""
     made = real[rng.integers(len(real), size=count)].astype(np.int16)
-    made = made[:, rng.permutation(made.shape[1])] + rng.integers(-20, 21, size=made.shape, dtype=np.int16)
+    made = made[:, rng.permutation(made.shape[1])] + np.roll(noise, rng.integers(len(noise)), axis=0)[:count]
     return np.clip(made, -127, 127).astype(real.dtype)
 
 
@@ -41,14 +41,10 @@ def mean_steps(street):
     return [int(street[-1]["frame"]) // between + 1] + [float(street[-1][name]) / between for name in WALKED]
 
 
-def write_traverse(short, folder, count, seed, with_street):
-    """A traverse of `count` keyframes; returns where the street begins in it, in metres, or None."""
-    folder.mkdir(parents=True)
-    street = rows(short / "keyframes.csv")
-    real = np.load(short / "descriptors-1.npy")
-    first = (count - len(street)) // 2 if with_street else count
+def write_keyframes(path, street, count, first):
+    """Evenly spaced ones, and those of the street from the keyframe `first` on."""
     frame_step, *steps = mean_steps(street)
-    with open(folder / "keyframes.csv", "w", newline="") as file:
+    with open(path, "w", newline="") as file:
         writer = csv.DictWriter(file, list(street[0]), restval="", lineterminator="\n")
         writer.writeheader()
         for i in range(count):
@@ -60,13 +56,16 @@ def write_traverse(short, folder, count, seed, with_street):
             time_s, displacement, distance_m = (f"{value:.6f}" for value in walked)
             writer.writerow({"frame": frame, "time_s": time_s, "displacement": displacement, "distance_m": distance_m,
                              "x_m": 0, "y_m": distance_m, "heading_rad": 0, "after_gap": 0})
+
+
+def write_descriptors(path, real, count, first, seed):
     rng = np.random.default_rng(seed)
-    made = np.lib.format.open_memmap(folder / "descriptors-1.npy", mode="w+", dtype=real.dtype, shape=(count, *real.shape[1:]))
+    noise = rng.integers(-20, 21, size=(BLOCK, *real.shape[1:]), dtype=np.int16)
+    made = np.lib.format.open_memmap(path, mode="w+", dtype=real.dtype, shape=(count, *real.shape[1:]))
     for begin in range(0, count, BLOCK):
-        made[begin:begin + BLOCK] = unlike(real, min(BLOCK, count - begin), rng)
-    if with_street:
+        made[begin:begin + BLOCK] = unlike(real, min(BLOCK, count - begin), noise, rng)
+    if first < count:
         made[first:first + len(real)] = real
-    return first * steps[-1] if with_street else None
 
 
 def write_routes(short, folder, routes, km):
@@ -86,16 +85,22 @@ def write_routes(short, folder, routes, km):
         writer.writeheader()
         writer.writerows(rest + [{**row, "traverse": t} for t in range(1, routes + 1) for row in one])
     traverse = rows(short / "traverses.csv")[0]
-    middle, begins_m = (routes + 1) // 2, None
+    middle, first = (routes + 1) // 2, (count - len(keyframes)) // 2
+    real = np.load(short / "traverse-1/descriptors-1.npy")
     with open(folder / "traverses.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, list(traverse), lineterminator="\n")
         writer.writeheader()
         for t in range(1, routes + 1):
             writer.writerow({**traverse, **{name: 0 for name in traverse if name.startswith("thumbnail")}, "traverse": t, "name": f"route {t}",
                              "frames": frame_step * count, "duration_s": step_s * count})
-            at = write_traverse(short / "traverse-1", folder / f"traverse-{t}", count, t, t == middle)
-            begins_m = at if at is not None else begins_m
-    return f"route {middle}", begins_m, routes * count
+            into = folder / f"traverse-{t}"
+            into.mkdir()
+            if t == middle or t == 1:
+                write_keyframes(into / "keyframes.csv", keyframes, count, first if t == middle else count)
+            else:
+                (into / "keyframes.csv").write_bytes((folder / "traverse-1/keyframes.csv").read_bytes())
+            write_descriptors(into / "descriptors-1.npy", real, count, first if t == middle else count, t)
+    return f"route {middle}", first * step_m, routes * count
 
 
 def measured(*arguments):
