@@ -18,7 +18,6 @@ constexpr double kDistant_s = 15;  // frames so far apart show places that have 
 constexpr std::size_t kDistantFrames = 30, kDistantErrors = 60;
 // Of unrelated pictures where none were seen yet: drawn and real walks have 0.7 to 1.
 constexpr double kUsualDistantError = 0.8;
-constexpr double kAlike = StandingOptions{}.alike;
 // Variance of the distance moved for each second, s^2: what a walk's speed by alignment error differs from
 // the true one by from second to second, and by what a walker's pace differs from the mean.
 constexpr double kVariance = 0.1, kVarianceUnseen = 0.4;
@@ -59,10 +58,19 @@ bool MotionFollower::stands(const Past& now) {
   if (middle == nullptr || first == nullptr || !middle->seen || !first->seen) return false;
   constexpr std::size_t kEnough = 10;
   const double distant = distant_errors_.size() < kEnough ? kUsualDistantError : median(distant_errors_);
-  const double limit = kAlike * distant;
-  return alignment_error(first->pixels, now.pixels) < limit &&
-         alignment_error(middle->pixels, now.pixels) < limit &&
-         alignment_error(first->pixels, middle->pixels) < limit;
+  const double most_unlike =
+      std::max({alignment_error(first->pixels, now.pixels), alignment_error(middle->pixels, now.pixels),
+                alignment_error(first->pixels, middle->pixels)}) /
+      distant;
+  constexpr StandingOptions kUsual;
+  if (most_unlike < kUsual.alike) return true;
+  if (most_unlike >= kUsual.alike_for_long) return false;
+  // As `standing_frames`, which also looks ahead. Of the distant pictures there is one for each second.
+  const double long_ago_s = now.time_s - kLongSpans * options_.standing_span_s;
+  const auto long_ago = std::ranges::find_if(
+      distant_, [&](const Past& past) { return std::abs(past.time_s - long_ago_s) <= 0.6; });
+  return long_ago != distant_.end() &&
+         alignment_error(long_ago->pixels, now.pixels) < kUsual.alike_for_long * distant;
 }
 
 void MotionFollower::learn(const std::vector<Comparison>& compared, double since_s) {

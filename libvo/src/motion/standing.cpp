@@ -68,7 +68,6 @@ std::vector<bool> standing_frames(const ImageStack& normalised, std::span<const 
     return static_cast<std::size_t>(std::ranges::lower_bound(time_s, s) - time_s.begin());
   };
   constexpr double kLongest = 1.5;  // times the span, at barely a frame a second
-  const double limit = options.alike * distant_error;
   const std::vector<std::uint8_t> blank(normalised.image_size(), kNeutralByte);
   std::vector<char> shows(normalised.size());  // pictures of nothing are all alike
   parallel_for(normalised.size(), [&](std::size_t i) {
@@ -82,10 +81,21 @@ std::vector<bool> standing_frames(const ImageStack& normalised, std::span<const 
     const std::size_t end = frame_at(time_s[first] + options.span_s);
     if (end >= normalised.size() || middle == first || end == middle) return;
     if (time_s[end] - time_s[first] > kLongest * options.span_s) return;  // the clock jumped in between
-    const auto alike = [&](std::size_t a, std::size_t b) {
-      return shows[a] && shows[b] && alignment_error(normalised[a], normalised[b]) < limit;
+    const auto alike = [&](std::size_t a, std::size_t b, double share) {
+      return shows[a] && shows[b] && alignment_error(normalised[a], normalised[b]) < share * distant_error;
     };
-    if (alike(first, middle) && alike(middle, end) && alike(first, end)) last[first] = end;
+    const auto all_alike = [&](double share) {
+      return alike(first, middle, share) && alike(middle, end, share) && alike(first, end, share);
+    };
+    const auto stays_for_long = [&] {
+      const double long_s = kLongSpans * options.span_s;
+      const std::size_t before = frame_at(time_s[end] - long_s), after = frame_at(time_s[first] + long_s);
+      const double share = options.alike_for_long;
+      return (time_s[end] - long_s >= time_s.front() && alike(before, end, share)) ||
+             (after < normalised.size() && alike(first, after, share));
+    };
+    if (all_alike(options.alike) || (all_alike(options.alike_for_long) && stays_for_long()))
+      last[first] = end;
   });
   std::size_t covered = 0;
   for (std::size_t i = 0; i + 1 < standing.size(); ++i) {

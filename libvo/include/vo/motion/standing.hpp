@@ -22,15 +22,20 @@ bool standing_still(double distant_error);
 struct StandingOptions {
   double span_s = 2;   ///< seconds over which a moving walker's view changes for good; 0: never standing
   double alike = 0.4;  ///< share of the distant error below which two views show one place
+  double alike_for_long = 2.0 / 3;  ///< the same where views `kLongSpans` spans apart are as alike
 };
+
+/// A walker who sways for this many spans has stood; one who walked slowly sees another view by then.
+inline constexpr double kLongSpans = 4;
 
 /// The intervals between frames in which the walker is still. One flag per frame, for the interval that ends
 /// with it; the first is false.
 ///
 /// SSS has no such stage: there, the sway and breathing of a standing walker count as motion, a fifth of
 /// walking by alignment error alone. But these return to where they began: a span is standing if its first,
-/// middle and last frames are all within `limit` of each other. Three frames, because two places along a
-/// fence or a row of doors may look alike by chance. Black frames do not change either, and show nothing.
+/// middle and last frames are all within `alike` of each other; or within `alike_for_long`, if the view four
+/// spans before the last or after the first is so too. Three frames, because two places along a fence or a
+/// row of doors may look alike by chance. Black frames do not change either, and show nothing.
 ///
 /// On drawn walks (tests/RESULTS.md, "Sources of motion"), views 2 s apart differ by 0.08 to 0.4 of the
 /// distant error while standing, and by 0.45 and more while walking slowly along a street that looks the same

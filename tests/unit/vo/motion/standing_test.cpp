@@ -144,21 +144,21 @@ TEST(StandingFrames, SayNothingOfPicturesOfNothing) {
   for (std::size_t i = 0; i < 160; ++i) EXPECT_EQ(standing[i], i >= 101 && i <= 123) << i;
 }
 
-/// Unrelated pictures of normal pixels, but for frames [40, 80), which turn from one towards another by an
+/// Unrelated pictures of normal pixels, but for frames [40, end), which turn from one towards another by an
 /// angle: two of them an angle d apart differ by sqrt(2) sin(d / 2) times what unrelated ones do.
 template <typename Angle>
-vo::ImageStack turning_view(Angle angle_rad) {
+vo::ImageStack turning_view(Angle angle_rad, std::size_t frames = 120, std::size_t end = 80) {
   constexpr std::size_t kPixels = 64 * 32;
   vo::Rng rng(3);
   const auto byte = [](double x) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(128 + 16 * x), 0L, 255L));
   };
-  vo::ImageStack walk = vo::make_image_stack(64, 32, 120);
+  vo::ImageStack walk = vo::make_image_stack(64, 32, frames);
   for (auto& pixel : walk.pixels) pixel = byte(rng.normal());
   std::vector<double> a(kPixels), b(kPixels);
   for (double& x : a) x = rng.normal();
   for (double& x : b) x = rng.normal();
-  for (std::size_t i = 40; i < 80; ++i) {
+  for (std::size_t i = 40; i < end; ++i) {
     const double angle = angle_rad(static_cast<double>(i - 40));
     for (std::size_t k = 0; k < kPixels; ++k)
       walk[i][k] = byte(std::cos(angle) * a[k] + std::sin(angle) * b[k]);
@@ -172,6 +172,18 @@ TEST(StandingFrames, AreNotThoseOfASlowWalkThroughAViewThatChangesLittle) {
   const auto walk = turning_view([&](double i) { return rate * i; });
   const double unlike = vo::distant_error(walk);
   EXPECT_THAT(vo::standing_frames(walk, times(120), unlike), Each(false));
+}
+
+TEST(StandingFrames, AreThoseOfAWalkerWhoSwaysFarButForLong) {
+  // To and fro by six tenths of what unrelated pictures differ, for 20 s and for 5 s. A third of a period is
+  // half of the span, so that of its three views two always differ by 0.45 or more.
+  const double most = 2 * std::asin(0.6 / std::numbers::sqrt2);
+  const auto sway = [&](double i) { return most / 2 * std::sin(2 * std::numbers::pi * i / 24); };
+  for (const std::size_t end : {200U, 80U}) {
+    const auto walk = turning_view(sway, 240, end);
+    const auto standing = vo::standing_frames(walk, times(240), vo::distant_error(walk));
+    for (std::size_t i = 0; i < 240; ++i) EXPECT_EQ(standing[i], end == 200 && i >= 41 && i < end) << i;
+  }
 }
 
 TEST(StandingFrames, AreThoseOfAWalkerWhoSways) {
