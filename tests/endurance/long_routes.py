@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Many long routes in one database: is the walk found, how long does it take, and how much memory?
 
-    RETRACE=build/release/bin/retrace /usr/bin/python3 tests/endurance/long_routes.py [--routes 50] [--km 100] [--memory 2G]
+    RETRACE=build/release/bin/retrace /usr/bin/python3 tests/endurance/long_routes.py [--routes 50] [--km 100] [--memory 4G]
 
 A drawn street of 60 m, by day, is the middle of the middle route. Everything else is as unlike as the real places are: each
 keyframe has the columns of a random real one in a random order, with noise. The street is walked again by night and localised
@@ -120,7 +120,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--routes", type=int, default=50)
     parser.add_argument("--km", type=float, default=100)
-    parser.add_argument("--memory", default="2G", help="of `localise`, such as 2G or 500M")
+    parser.add_argument("--memory", default="4G", help="of `localise`, such as 4G or 500M")
     options = parser.parse_args()
     troubles = []
     with tempfile.TemporaryDirectory(prefix="retrace-long-routes-") as name:

@@ -19,7 +19,9 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace {
 
-constexpr std::size_t kPages = 6U << 20U;  // SQLite's cache, of fixed size, for two files at once
+// SQLite's cache, of fixed size, for two files at once; and its list of a row's further pages, 8 bytes for
+// each of 508 of the 4 GB that a damaged row may claim to have.
+constexpr std::size_t kPages = 6U << 20U, kFurtherPages = 68U << 20U;
 
 struct Column {
   const char *table, *name;
@@ -193,6 +195,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         place::write_route(fuzz::folder() / "again.db", route);  // what was read can be written
       },
-      kPages);
+      kPages + kFurtherPages);
   return 0;
 }

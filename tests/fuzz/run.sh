@@ -36,8 +36,8 @@ run() {
   dictionary=tests/fuzz/dictionaries/$dictionary.dict
   [[ $target == settings ]] && dictionary=$fuzz/seeds/settings.dict  # their names
   mkdir -p "$fuzz/corpus/$target"
-  # Beside the 50 times its file that a reader is held to (fuzz.hpp): at most 64 MB at once, 1 GB with what the sanitizers need.
-  "$fuzz/bin/fuzz_$target" -max_total_time="$seconds" -runs="${RETRACE_FUZZ_RUNS:--1}" -seed="${RETRACE_FUZZ_SEED:-0}" -max_len="$longest" -timeout=20 -malloc_limit_mb=64 \
+  # Beside the 50 times its file that a reader is held to (fuzz.hpp): at most 80 MB at once, 1 GB with what the sanitizers need.
+  "$fuzz/bin/fuzz_$target" -max_total_time="$seconds" -runs="${RETRACE_FUZZ_RUNS:--1}" -seed="${RETRACE_FUZZ_SEED:-0}" -max_len="$longest" -timeout=20 -malloc_limit_mb=80 \
     -rss_limit_mb=1024 -dict="$dictionary" -artifact_prefix="$fuzz/findings/$target-" -print_final_stats=1 \
     "$fuzz/corpus/$target" "$fuzz/seeds/$target" >"$log" 2>&1 </dev/null || status=$?
   if ((status == 0)); then
