@@ -56,7 +56,7 @@ def draw(path, seen, at, gain):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--hours", type=float, default=10)
-    parser.add_argument("--memory", default="14G", help="of `localise`")
+    parser.add_argument("--memory", help="of `localise`, such as 14G")
     options = parser.parse_args()
     frames = int(3600 * RATE_HZ * options.hours)
     first_at = places(frames, SPEED_PX)
@@ -75,7 +75,8 @@ def main():
 
         seconds, memory, said = measured("build", first, "-o", folder / "route.db")
         row("build", frames, said.split(" keyframes")[0].split()[-1], seconds, memory)
-        seconds, memory, _ = measured("localise", second, "--route", folder / "route.db", "-o", folder / "run", "--memory", options.memory)
+        seconds, memory, _ = measured("localise", second, "--route", folder / "route.db", "-o", folder / "run",
+                                      *(("--memory", options.memory) if options.memory else ()))
         matches = rows(folder / "run/matches.csv")
         row("localise", len(second_at), len(matches), seconds, memory)
     accepted = [match for match in matches if match["accepted"] == "1"]

@@ -20,7 +20,7 @@ for part in "${parts[@]}"; do
     kills) python3 tests/endurance/killed_builds.py "$RETRACE" "$RETRACE_DISK_SHIM" ;;
     readers) python3 tests/endurance/many_readers.py "$RETRACE" ;;
     follow) bash tests/endurance/follow_loop.sh ;;
-    walk) /usr/bin/python3 tests/endurance/long_walk.py ;;
+    walk) /usr/bin/python3 tests/endurance/long_walk.py --memory 14G ;;
     routes) /usr/bin/python3 tests/endurance/long_routes.py ;;
     *) echo "no part called $part: fuzz, threads, faults, kills, readers, follow, walk or routes" >&2; exit 2 ;;
   esac
