@@ -149,25 +149,36 @@ def elsewhere(walk, route):
     return ratio(sum(line["state"] == "on_route" for line in lines), len(lines))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def on_routes(options, folder):
+    """(name, route database, walk, where on the route each frame is, metres along); the route is there until the next is asked for."""
+    route, of = folder / "route.db", None
+    for title, reference, survey, walk, truth, along in walks(options, folder):
+        if of != reference:
+            route.unlink(missing_ok=True)
+            check("build", reference, "-o", route, "--truth", survey)
+            of = reference
+        yield title, route, walk, truth, along
+
+
+def parser_of(text):
+    """Options of the walks."""
+    parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--routes", type=int, default=10)
     parser.add_argument("--length-m", type=float, default=60)
     parser.add_argument("--first-seed", type=int, default=41, help="of the routes drawn")
     parser.add_argument("--width", type=int, default=640, help="pixels, of the pictures drawn")
+    return parser
+
+
+def main():
+    parser = parser_of(__doc__)
     parser.add_argument("--drawn-only", action="store_true", help="without the shared pairs")
     options = parser.parse_args()
     everything, before, never_on_it = [], [], []
     print("| walk | found after m | within 2 m | median m | leaving said after m | back after m | called off the route | "
           "calibration error | within 1.64 sd |\n" + "|---" * 9 + "|")
     with tempfile.TemporaryDirectory(prefix="retrace-follow-") as name:
-        folder = pathlib.Path(name)
-        route, of = folder / "route.db", None
-        for title, reference, survey, walk, truth, along in walks(options, folder):
-            if of != reference:
-                route.unlink(missing_ok=True)
-                check("build", reference, "-o", route, "--truth", survey)
-                of = reference
+        for title, route, walk, truth, along in on_routes(options, pathlib.Path(name)):
             followed = Followed(walk, route, truth, along)
             everything.append(followed)
             print(row(title, followed), flush=True)
